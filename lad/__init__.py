@@ -1,0 +1,1 @@
+"""Learning Assistance by Demonstration: when to help, and how. Knows no simulator."""

@@ -1,0 +1,64 @@
+"""The seam every assistant fits: a demonstrator, the learned model, or somebody else's idea."""
+
+from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lad.command import Command
+
+
+@dataclass(frozen=True, slots=True)
+class Assistance:
+    """What an assistant says in one step.
+
+    Attributes
+    ----------
+    helping
+        Whether it wants its command to count now (the paper's h = +1).
+    command
+        What it would have the chair do; None when it is not helping and has nothing to say.
+    p_help
+        p(h = 1 | x), in [0, 1]; None for an assistant that does not deal in probabilities.
+    mean
+        Predicted assistive action, also when it is not helping; None as for ``p_help``.
+    variance
+        Predictive variance of the action including noise, the same for both components
+        ((m/s)^2 and (rad/s)^2); None as for ``p_help``.
+    """
+
+    helping: bool
+    command: Command | None = None
+    p_help: float | None = None
+    mean: Command | None = None
+    variance: float | None = None
+
+
+NO_ASSISTANCE = Assistance(helping=False)
+
+
+class Assistant(Protocol):
+    """Whoever may help. Called once in every step of every lap, helping or only watching."""
+
+    def start_lap(self) -> None:
+        """Forget the last lap's history; keep what was learnt."""
+
+    def assist(self, x: NDArray[np.float64]) -> Assistance:
+        """Look at the inputs (shape (19,), order of ``lad.inputs.INPUT_NAMES``) and answer."""
+
+
+@runtime_checkable
+class Learner(Protocol):
+    """An assistant that learns from a demonstration, step by step."""
+
+    def learn(self, helping: bool, command: Command | None) -> None:
+        """Learn the step last seen by ``assist``.
+
+        Parameters
+        ----------
+        helping
+            Whether the demonstrator had taken over.
+        command
+            The demonstrator's command; None when it had not.
+        """
