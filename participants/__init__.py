@@ -1,0 +1,1 @@
+"""Who takes part: drivers, demonstrators, survey respondents, cohorts. Knows no simulator."""

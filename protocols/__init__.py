@@ -1,0 +1,1 @@
+"""What a study is, and what it leaves behind. Knows no simulator."""

@@ -1,0 +1,74 @@
+"""The study's tables of participants, laps and survey answers."""
+
+import pyarrow as pa
+
+from protocols.record.column import Column, arrow_schema
+
+_F = pa.float64()
+_ID = Column("participant", pa.string(), "Participant number, e.g. P0001")
+
+END_REASONS = ("finished", "time_limit", "withdrew")
+GENDERS = ("female", "male", "other", "undisclosed")
+HANDEDNESS = ("right", "left", "both", "undisclosed")
+
+PARTICIPANT_COLUMNS: tuple[Column, ...] = (
+    _ID,
+    Column("kind", pa.string(), "What sat in the chair", "", "synthetic, scripted, live"),
+    Column("driver", pa.string(), "Driver as the protocol names it"),
+    Column("impairment", pa.string(), "Participant's own impairment", "", "none, or its name"),
+    Column("age_years", pa.int16(), "Age", "years", nullable=True),
+    Column("gender", pa.string(), "Gender", "", ", ".join(GENDERS), nullable=True),
+    Column("handedness", pa.string(), "Handedness", "", ", ".join(HANDEDNESS), nullable=True),
+    Column("traits", pa.map_(pa.string(), _F), "A synthetic driver's and respondent's traits, by "
+           "name; units are part of the names"),
+    Column("consented", pa.bool_(), "Whether consent was given (synthetic participants: always)"),
+    Column("completed", pa.bool_(), "Whether every planned lap was driven to its end"),
+    Column("laps_planned", pa.int16(), "Laps in the protocol", "", "1 or more"),
+    Column("laps_driven", pa.int16(), "Laps begun", "", "0 or more"),
+    Column("excluded", pa.bool_(), "Whether the protocol's exclusion rules apply"),
+    Column("exclusion_reason", pa.string(), "The rule that applied; missing when not excluded",
+           nullable=True),
+)  # fmt: skip
+
+LAP_COLUMNS: tuple[Column, ...] = (
+    _ID,
+    Column("lap", pa.int16(), "Position in the session, counted from 0", "", "0 or more"),
+    Column("condition", pa.string(), "Condition as the protocol names it"),
+    Column("practice", pa.bool_(), "Whether the lap is for familiarisation and not analysed"),
+    Column("limited", pa.bool_(), "Whether the control limitation was on"),
+    Column("assistant", pa.string(), "Who could help", "", "none, demonstrator, model"),
+    Column("training", pa.bool_(), "Whether the model learnt during the lap"),
+    Column("completed", pa.bool_(), "Whether the lap reached its last gate"),
+    Column("end_reason", pa.string(), "Why the lap ended", "", ", ".join(END_REASONS)),
+    Column("withdrawal", pa.string(), "A withdrawal in the participant's words", nullable=True),
+    Column("lap_time_s", _F, "Time from start to the last gate; missing for an unfinished lap",
+           "s", "above 0", nullable=True),
+    Column("duration_s", _F, "Time from start to the end of the lap, finished or not", "s"),
+    Column("steps", pa.int32(), "Control steps recorded", "", "1 or more"),
+    Column("collisions", pa.int32(), "Number of contacts with obstacles", "", "0 or more"),
+    Column("contact_time_s", _F, "Time in contact with obstacles", "s", "0 or more"),
+    Column("assisted_fraction", _F, "Share of steps in which an assistant's command counted", "",
+           "0 to 1"),
+    Column("interventions", pa.int32(), "Number of unbroken stretches of assistance", "",
+           "0 or more"),
+    Column("gates_passed", pa.int16(), "Gates crossed in order", "", "0 or more"),
+    Column("basis_vectors_when", pa.int32(), "Basis vectors of the classifier at the lap's end",
+           nullable=True),
+    Column("basis_vectors_how", pa.int32(), "Basis vectors of the regressor at the lap's end",
+           nullable=True),
+    Column("seed", pa.uint64(), "Fingerprint of the lap's random streams"),
+)  # fmt: skip
+
+SURVEY_COLUMNS: tuple[Column, ...] = (
+    _ID,
+    Column("lap", pa.int16(), "Lap the answer is about"),
+    Column("condition", pa.string(), "Condition of that lap"),
+    Column("instrument", pa.string(), "Instrument as the protocol names it"),
+    Column("item", pa.string(), "Item of the instrument, e.g. Q7"),
+    Column("response", pa.int8(), "Answer on the item's scale, as given (reverse-coded items are "
+           "not turned); missing when not answered", "", "1 to the scale's points", nullable=True),
+)  # fmt: skip
+
+PARTICIPANT_SCHEMA = arrow_schema(PARTICIPANT_COLUMNS)
+LAP_SCHEMA = arrow_schema(LAP_COLUMNS)
+SURVEY_SCHEMA = arrow_schema(SURVEY_COLUMNS)
