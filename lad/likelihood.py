@@ -1,0 +1,130 @@
+"""What was observed, and what it says about the latent function.
+
+The projected process needs only two numbers of a likelihood, the first and second derivative of
+the log evidence with respect to the latent mean: q and r (Csato & Opper 2002, section 2).
+"""
+
+import math
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import log_ndtr, ndtr
+
+from lad.errors import InvalidTargetError
+from lad.window import as_vector
+
+LARGEST_TARGET = 1e100
+LikelihoodName = Literal["gaussian", "probit"]
+ProbabilityForm = Literal["probit", "paper"]
+
+
+class Evidence(NamedTuple):
+    """First and second derivative of the log evidence: q, one per output, and r, shared."""
+
+    q: NDArray[np.float64]
+    r: float
+
+
+def check_target(y: object, n_outputs: int, likelihood: LikelihoodName) -> NDArray[np.float64]:
+    """Check a target before anything changes.
+
+    Parameters
+    ----------
+    y
+        Shape (n_outputs,) of finite numbers (a plain number will do for one output); a label is
+        exactly -1 or +1.
+    n_outputs
+        Number of outputs p.
+    likelihood
+        ``gaussian`` or ``probit``.
+
+    Raises
+    ------
+    InvalidTargetError
+        What was given and what is allowed.
+    """
+    if n_outputs == 1 and np.ndim(y) == 0:  # type: ignore[arg-type]
+        y = [y]
+    target = as_vector(y, n_outputs, "target", InvalidTargetError)
+    if likelihood == "probit" and target[0] not in (-1.0, 1.0):
+        raise InvalidTargetError(f"label: given {target[0]:g}; allowed are -1 and +1")
+    if np.abs(target).max() > LARGEST_TARGET:
+        raise InvalidTargetError(
+            f"target: given {np.abs(target).max():g}; allowed up to {LARGEST_TARGET:g}"
+        )
+    return target
+
+
+def gaussian_evidence(
+    y: NDArray[np.float64], mean: NDArray[np.float64], variance: float
+) -> Evidence:
+    """Regression: q = (y - m) / v and r = -1 / v, with v the variance including noise."""
+    return Evidence((y - mean) / variance, -1.0 / variance)
+
+
+def probit_evidence(y: NDArray[np.float64], mean: NDArray[np.float64], variance: float) -> Evidence:
+    """Classification: with s = sqrt(v), z = y m / s and h = phi(z) / Phi(z).
+
+    q = y h / s and r = -h (z + h) / v. (The reference MATLAB code has -(z + h^2) / v, with which
+    a variance can turn negative.)
+    """
+    s = math.sqrt(variance)
+    z = float(y[0] * mean[0]) / s
+    h = math.exp(-0.5 * z * z - 0.5 * math.log(2.0 * math.pi) - float(log_ndtr(z)))
+    return Evidence(y * (h / s), -h * (z + h) / variance)
+
+
+def evidence(
+    y: NDArray[np.float64],
+    mean: NDArray[np.float64],
+    variance: float,
+    likelihood: LikelihoodName,
+) -> Evidence:
+    """Evidence of one target.
+
+    Parameters
+    ----------
+    y
+        Checked target, shape (p,).
+    mean
+        Predictive mean, shape (p,).
+    variance
+        Predictive variance including noise, positive.
+    likelihood
+        ``gaussian`` or ``probit``.
+    """
+    if likelihood == "gaussian":
+        return gaussian_evidence(y, mean, variance)
+    return probit_evidence(y, mean, variance)
+
+
+def probability_of_help(
+    mean: float, latent_variance: float, noise_variance: float, form: ProbabilityForm = "probit"
+) -> float:
+    """Probability that h = +1, from the classifier's latent mean and variance.
+
+    Parameters
+    ----------
+    mean, latent_variance
+        The classifier's prediction; the variance is positive and without noise.
+    noise_variance
+        sigma_n^2 of the classifier.
+    form
+        ``probit``, the predictive probability of the model, Phi(mu / sqrt(sigma^2 + noise)); or
+        ``paper``, equation (10) of Soh & Demiris as it is printed, Phi(mu / sigma^2), with the
+        latent variance of equation (9). The printed form has a unit inside Phi and grows too
+        sure as the latent variance shrinks; it crosses 0.5 at the same inputs.
+
+    Examples
+    --------
+    >>> probability_of_help(0.0, 0.1, 0.1)
+    0.5
+    >>> round(probability_of_help(0.2, 0.05, 0.1), 4)
+    0.6972
+    >>> round(probability_of_help(0.2, 0.05, 0.1, form="paper"), 4)
+    1.0
+    """
+    if form == "paper":
+        return float(ndtr(mean / latent_variance))
+    return float(ndtr(mean / math.sqrt(latent_variance + noise_variance)))

@@ -1,0 +1,79 @@
+"""What a process has learnt, in arrays with room to grow."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lad.window import Window
+
+FIRST_ROOM = 32
+WORK_ROWS = 5
+
+
+@dataclass
+class State:
+    """Basis vectors and the natural parameters of the process over them.
+
+    Room doubles until it holds capacity + 1 (a new vector stands beside the old ones before one
+    is deleted), then memory is constant.
+
+    Attributes
+    ----------
+    n
+        Number of basis vectors in use; the arrays below have room for more.
+    C, Q
+        Shape (room, room); the lower triangle of the first n rows counts.
+    alpha
+        Shape (p, room).
+    basis
+        Shape (tau, d, room): windows in units of the lengthscales, newest input first.
+    times, laps
+        Shape (room,): when each basis vector was seen.
+    work
+        Shape (5, room): vectors of the step in progress.
+    """
+
+    depth: int
+    n_inputs: int
+    n_outputs: int
+    capacity: int
+    n: int = field(default=0, init=False)
+
+    def __post_init__(self) -> None:
+        self._allocate(min(FIRST_ROOM, self.capacity + 1))
+
+    def _allocate(self, room: int) -> None:
+        self.C = np.zeros((room, room))
+        self.Q = np.zeros((room, room))
+        self.alpha = np.zeros((self.n_outputs, room))
+        self.basis = np.zeros((self.depth, self.n_inputs, room))
+        self.times = np.zeros(room, dtype=np.int64)
+        self.laps = np.zeros(room, dtype=np.int64)
+        self.work = np.zeros((WORK_ROWS, room))
+
+    @property
+    def room(self) -> int:
+        """How many basis vectors the arrays can hold."""
+        return self.alpha.shape[1]
+
+    def make_room(self) -> None:
+        """Make room for one vector more than there are, keeping everything, work included."""
+        if self.n < self.room:
+            return
+        old = (self.C, self.Q, self.alpha, self.basis, self.times, self.laps, self.work)
+        self._allocate(min(2 * self.room, self.capacity + 1))
+        new = (self.C, self.Q, self.alpha, self.basis, self.times, self.laps, self.work)
+        for before, after in zip(old, new, strict=True):
+            after[tuple(slice(size) for size in before.shape)] = before
+
+    def remember(self, window: Window, slot: int) -> None:
+        """Store the window as the basis vector of a slot."""
+        self.basis[:, :, slot] = window.scaled
+        self.times[slot] = window.time
+        self.laps[slot] = window.lap
+
+
+def whole(lower: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Build the symmetric matrix of a lower triangle, shape (n, n)."""
+    return np.tril(lower) + np.tril(lower, -1).T

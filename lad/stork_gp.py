@@ -1,0 +1,197 @@
+"""STORK-GP: the sparse online Gaussian process with a recursive kernel, as people use it."""
+
+from pathlib import Path
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lad import fused
+from lad.hyperparameters import GPHyperparameters
+from lad.likelihood import LikelihoodName, check_target, evidence
+from lad.model_file import pack, read, unpack, write_whole
+from lad.snapshot import restore_state, restore_window, state_arrays, window_arrays
+from lad.state import State
+from lad.update import SMALLEST_NOVELTY, SMALLEST_VARIANCE, Prediction, Update, UpdateKind
+from lad.window import Window
+
+KIND = "stork-gp"
+
+
+class StorkGP:
+    """Spatio-temporal online recursive kernel Gaussian process.
+
+    Looking and learning are apart: ``observe`` advances the window once per step, ``predict`` and
+    ``learn`` use the window as it stands, ``reset_window`` starts a lap and forgets nothing that
+    was learnt.
+
+    Parameters
+    ----------
+    hyperparameters
+        Checked hyperparameters.
+    likelihood
+        ``gaussian`` for regression, ``probit`` for labels -1 and +1.
+    n_outputs
+        Number of outputs p; they share C, Q and the basis vectors. A classifier has one.
+    window
+        A window to share with another process (the one who shares it observes once).
+
+    References
+    ----------
+    Soh & Demiris, When and how to help, section III. Csato & Opper, Sparse on-line Gaussian
+    processes, Neural Computation 14, 2002.
+
+    Examples
+    --------
+    >>> gp = StorkGP(GPHyperparameters(lengthscales=[0.5], noise_variance=0.01))
+    >>> gp.observe([0.3])
+    >>> gp.learn([1.0]).kind.name
+    'FIRST'
+    >>> float(gp.predict().mean[0].round(4))
+    0.9091
+    """
+
+    def __init__(
+        self,
+        hyperparameters: GPHyperparameters,
+        likelihood: LikelihoodName = "gaussian",
+        n_outputs: int = 1,
+        window: Window | None = None,
+    ) -> None:
+        self.hyperparameters = hyperparameters
+        self.likelihood = likelihood
+        self.n_outputs = n_outputs
+        self.window = window or Window(
+            np.array(hyperparameters.lengthscales), hyperparameters.recursion_depth
+        )
+        self.state = State(
+            depth=hyperparameters.recursion_depth,
+            n_inputs=hyperparameters.n_inputs,
+            n_outputs=n_outputs,
+            capacity=hyperparameters.capacity,
+        )
+        self._mean = np.zeros(n_outputs)
+        self._latent = 0.0
+        self._looked_at = -1
+
+    @property
+    def n_basis(self) -> int:
+        """Number of basis vectors n."""
+        return self.state.n
+
+    def observe(self, x: NDArray[np.float64]) -> None:
+        """Advance the window by one input, shape (d,)."""
+        self.window.observe(x)
+
+    def reset_window(self) -> None:
+        """Start a new lap."""
+        self.window.reset()
+
+    def _look(self) -> None:
+        """Fill k, C k, mean and latent variance, unless they are those of this window already."""
+        if self._looked_at == self.window.version:
+            return
+        hyper, state = self.hyperparameters, self.state
+        latent = fused.predict(
+            state.basis,
+            self.window.scaled,
+            state.n,
+            hyper.squared_temporal_scale,
+            hyper.signal_variance,
+            state.C,
+            state.alpha,
+            state.work,
+            self._mean,
+        )
+        self._latent = max(latent, SMALLEST_VARIANCE)
+        self._looked_at = self.window.version
+
+    def predict(self) -> Prediction:
+        """Predict at the window as it stands: equations (8) and (9). Changes nothing."""
+        self._look()
+        return Prediction(
+            self._mean.copy(), self._latent, self._latent + self.hyperparameters.noise_variance
+        )
+
+    def learn(self, y: object) -> Update:
+        """Learn the target of the window as it stands.
+
+        Parameters
+        ----------
+        y
+            Shape (p,), or a plain number for one output; -1 or +1 for a classifier.
+
+        Raises
+        ------
+        InvalidTargetError
+            When y has another shape or type or is not finite; nothing has changed.
+        """
+        hyper = self.hyperparameters
+        target = check_target(y, self.n_outputs, self.likelihood)
+        self._look()
+        q, r = evidence(target, self._mean, self._latent + hyper.noise_variance, self.likelihood)
+        state, prior = self.state, hyper.signal_variance
+        gamma = fused.residual(state.Q, state.n, prior, state.work)
+        novelty = gamma / prior if gamma >= SMALLEST_NOVELTY else 0.0
+        self._looked_at = -1
+        if gamma < max(hyper.novelty * prior, SMALLEST_NOVELTY):
+            fused.sparse_update(state.n, state.C, state.alpha, state.work, gamma, q, r)
+            return Update(UpdateKind.SPARSE, novelty)
+        if state.n == hyper.capacity:
+            return Update(UpdateKind.FULL_THEN_DELETION, novelty, self._replace(gamma, q, r))
+        state.make_room()
+        fused.full_update(state.n, state.C, state.Q, state.alpha, state.work, gamma, q, r)
+        state.remember(self.window, state.n)
+        state.n += 1
+        return Update(UpdateKind.FIRST if state.n == 1 else UpdateKind.FULL, novelty)
+
+    def _replace(self, gamma: float, q: NDArray[np.float64], r: float) -> int:
+        """Full update, then deletion of the lowest score; return its time index."""
+        state = self.state
+        slot = fused.full_update_then_deletion(
+            state.n, state.C, state.Q, state.alpha, state.work, gamma, q, r
+        )
+        if slot == state.n:
+            return self.window.time
+        deleted = int(state.times[slot])
+        state.remember(self.window, slot)
+        return deleted
+
+    def to_bytes(self) -> bytes:
+        """Save as the bytes of one portable npz; the same bytes for the same model."""
+        window, arrays = window_arrays(self.window)
+        header = {
+            "hyperparameters": self.hyperparameters.model_dump(),
+            "likelihood": self.likelihood,
+            "n_outputs": self.n_outputs,
+            "window": window,
+        }
+        return pack(KIND, header, arrays | state_arrays(self.state))
+
+    @classmethod
+    def from_bytes(cls, data: bytes, source: str = "model") -> Self:
+        """Rebuild a process whose predictions are bit-identical.
+
+        Raises
+        ------
+        ModelFileError
+            When the bytes are not a saved process; ``source`` names them.
+        """
+        header, arrays = unpack(data, KIND, source)
+        hyper = GPHyperparameters.from_header(header["hyperparameters"])
+        process = cls(hyper, header["likelihood"], header["n_outputs"])
+        restore_window(process.window, header["window"], arrays)
+        restore_state(process.state, arrays)
+        return process
+
+    def save(self, path: str | Path) -> None:
+        """Write ``to_bytes`` to a file, whole or not at all."""
+        write_whole(path, self.to_bytes())
+
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Read what ``save`` wrote; a ModelFileError names the path."""
+        return cls.from_bytes(read(path), str(path))
+
+    def __reduce__(self) -> tuple[object, tuple[bytes]]:
+        return type(self).from_bytes, (self.to_bytes(),)
