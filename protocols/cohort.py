@@ -1,0 +1,76 @@
+"""Who takes part: how many, who drives, who helps, who answers."""
+
+from typing import Annotated, Any, Self
+
+from pydantic import Field, model_validator
+
+from protocols.part import Part, shipped_or_factory
+
+Options = dict[str, Any]
+"""Settings handed to the component as keyword arguments; the component checks them."""
+
+Share = Annotated[float, Field(ge=0, le=1)]
+
+
+class AgeRange(Part):
+    """Ages of the people a synthetic cohort is drawn from, in years."""
+
+    lowest: Annotated[float, Field(ge=0, le=120)] = 21
+    highest: Annotated[float, Field(ge=0, le=120)] = 38
+    mean: Annotated[float, Field(ge=0, le=120)] = 27
+    sd: Annotated[float, Field(gt=0, le=60)] = 4.91
+
+    @model_validator(mode="after")
+    def _possible(self) -> Self:
+        if not self.lowest < self.mean < self.highest:
+            raise ValueError("the mean age must lie between lowest and highest")
+        largest = ((self.highest - self.mean) * (self.mean - self.lowest)) ** 0.5
+        if self.sd >= largest:
+            raise ValueError(
+                f"no distribution between these ages with this mean has such an sd; "
+                f"allowed: below {largest:.2f}"
+            )
+        return self
+
+
+class Demographics(Part):
+    """What a synthetic cohort is drawn from; the default is the paper's sample (section V.B).
+
+    The paper does not report handedness; the default share of left-handers is the estimate of
+    Papadatou-Pastou et al. (2020), Psychological Bulletin 146(6), 481-524.
+    """
+
+    age_years: AgeRange = AgeRange()
+    female_share: Share = 5 / 12
+    left_handed_share: Share = 0.106
+
+
+class DriverChoice(Part):
+    """Who sits in the wheelchair."""
+
+    use: shipped_or_factory("human", "autonomous", "scripted") = "human"  # type: ignore[valid-type]
+    options: Options = {}
+
+
+class DemonstratorChoice(Part):
+    """Who watches and takes over, or as a shadow says what they would do."""
+
+    use: shipped_or_factory("attentive") = "attentive"  # type: ignore[valid-type]
+    options: Options = {}
+
+
+class RespondentChoice(Part):
+    """Who answers the questions."""
+
+    use: shipped_or_factory("ordinal") = "ordinal"  # type: ignore[valid-type]
+    options: Options = {}
+
+
+class Cohort(Part):
+    """The people of a study. A study can be enlarged: only ``participants`` may change then."""
+
+    participants: Annotated[int, Field(ge=1, le=9999)] = 12
+    driver: DriverChoice = DriverChoice()
+    demonstrator: DemonstratorChoice = DemonstratorChoice()
+    respondent: RespondentChoice = RespondentChoice()
+    demographics: Demographics = Demographics()

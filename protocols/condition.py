@@ -1,0 +1,47 @@
+"""Conditions: what the study does to a lap."""
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from protocols.part import Part
+from protocols.wheelchair import MAX_TURN_RATE
+
+AssistantKind = Literal["none", "demonstrator", "model"]
+ArbitrationKind = Literal["takeover", "augment"]
+
+
+class LimitationSettings(Part):
+    """The control limitation: what full deflection to the right still gives, in rad/s."""
+
+    right_turn_rad_s: Annotated[float, Field(gt=0, le=MAX_TURN_RATE)] = 0.15
+
+
+class Condition(Part):
+    """One way of driving a lap.
+
+    Attributes
+    ----------
+    limitation
+        What is done to the driver's command; None for nothing.
+    assistant
+        Who may help.
+    arbitration
+        How the driver's and the assistant's commands become one.
+    safeguard
+        Whether the last guard against hard collisions is on.
+    training
+        Whether the model learns from the demonstrator during the lap.
+    """
+
+    limitation: LimitationSettings | None = None
+    assistant: AssistantKind = "none"
+    arbitration: ArbitrationKind = "takeover"
+    safeguard: bool = True
+    training: bool = False
+
+    @model_validator(mode="after")
+    def _training_needs_a_demonstrator(self) -> Self:
+        if self.training and self.assistant != "demonstrator":
+            raise ValueError("training: true needs assistant: demonstrator")
+        return self

@@ -1,0 +1,91 @@
+"""Whether the parts of one protocol agree with one another."""
+
+from collections.abc import Iterator, Mapping
+
+from protocols.condition import Condition
+from protocols.declared import Comparison
+from protocols.fault import Fault, InconsistentError, Location
+from protocols.plan import PlannedLap
+from protocols.suggestion import allowed
+
+
+def check_consistency(
+    conditions: Mapping[str, Condition],
+    laps: tuple[PlannedLap, ...],
+    analyses: tuple[Comparison, ...],
+) -> None:
+    """Refuse a protocol whose parts contradict one another.
+
+    Raises
+    ------
+    InconsistentError
+        With every fault found and its location in the file.
+    """
+    faults = (*_lap_faults(conditions, laps), *_analysis_faults(conditions, laps, analyses))
+    if faults:
+        raise InconsistentError(faults)
+
+
+def _unknown_condition(given: str, conditions: Mapping[str, Condition]) -> str:
+    return f"'{given}' is not a condition of this protocol; {allowed(given, conditions)}"
+
+
+def _lap_faults(
+    conditions: Mapping[str, Condition], laps: tuple[PlannedLap, ...]
+) -> Iterator[Fault]:
+    trained = False
+    for i, lap in enumerate(laps):
+        condition = conditions.get(lap.condition)
+        if condition is None:
+            message = _unknown_condition(lap.condition, conditions)
+            yield Fault(("laps", i, "condition"), message)
+            trained = True  # an unknown lap may have been the training: no second-hand fault
+            continue
+        if condition.assistant == "model" and not trained:
+            message = (
+                f"'{lap.condition}' is assisted by the model, which has learnt nothing yet; "
+                "put a lap with training: true before it"
+            )
+            yield Fault(("laps", i, "condition"), message)
+        trained = trained or condition.training
+        yield from _repeated_instruments(i, lap)
+    if all(lap.practice for lap in laps):
+        yield Fault(("laps",), "every lap is practice; at least one must not be")
+
+
+def _repeated_instruments(i: int, lap: PlannedLap) -> Iterator[Fault]:
+    asked: set[str] = set()
+    for j, survey in enumerate(lap.survey):
+        where: Location = ("laps", i, "survey", j)
+        if survey.instrument in asked:
+            message = f"'{survey.instrument}' is asked twice after this lap; once is allowed"
+            yield Fault((*where, "instrument"), message)
+        asked.add(survey.instrument)
+        items = survey.items if isinstance(survey.items, tuple) else ()
+        for k, item in enumerate(items):
+            if item in items[:k]:
+                yield Fault((*where, "items", k), f"'{item}' is asked twice; once is allowed")
+
+
+def _analysis_faults(
+    conditions: Mapping[str, Condition],
+    laps: tuple[PlannedLap, ...],
+    analyses: tuple[Comparison, ...],
+) -> Iterator[Fault]:
+    driven = {lap.condition for lap in laps if not lap.practice}
+    names: set[str] = set()
+    for i, comparison in enumerate(analyses):
+        if comparison.name in names:
+            message = f"'{comparison.name}' is the name of an earlier analysis; names are unique"
+            yield Fault(("analyses", i, "name"), message)
+        names.add(comparison.name)
+        for role in ("condition", "reference"):
+            given = getattr(comparison, role)
+            if given not in conditions:
+                yield Fault(("analyses", i, role), _unknown_condition(given, conditions))
+            elif given not in driven:
+                message = f"no lap to analyse has the condition '{given}'; {allowed(given, driven)}"
+                yield Fault(("analyses", i, role), message)
+        if comparison.condition == comparison.reference:
+            message = f"'{comparison.reference}' would be compared with itself"
+            yield Fault(("analyses", i, "reference"), message)

@@ -1,0 +1,79 @@
+"""What a study declares before its first lap: who is excluded, and what is compared."""
+
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, Field
+
+from protocols.part import Name, Part
+
+LAP_OUTCOMES = (
+    "lap_time_s",
+    "duration_s",
+    "collisions",
+    "contact_time_s",
+    "assisted_fraction",
+    "interventions",
+)
+"""Columns of the lap table that a comparison may name."""
+
+
+def _lap_outcome_or_item(value: str) -> str:
+    instrument, _, item = value.rpartition(".")
+    if value in LAP_OUTCOMES or (instrument and item):
+        return value
+    allowed = f"{', '.join(LAP_OUTCOMES)}, or instrument.item (driving-assistance.Q7)"
+    raise ValueError(f"'{value}' is not an outcome; allowed: {allowed}")
+
+
+class Exclusion(Part):
+    """Rules that exclude a participant from every analysis; None switches a rule off.
+
+    A participant who is not excluded but lacks a lap is left out of the comparisons that need
+    that lap, and counted there as missing.
+
+    Attributes
+    ----------
+    min_completed_laps
+        Fewer completed laps than this, practice apart.
+    max_collisions
+        More collisions than this in all laps together, practice apart.
+    """
+
+    min_completed_laps: Annotated[int, Field(ge=1)] | None = None
+    max_collisions: Annotated[int, Field(ge=0)] | None = None
+
+
+class Comparison(Part):
+    """Two conditions compared within participants, declared in advance.
+
+    Attributes
+    ----------
+    name
+        Unique name, used in tables.
+    outcome
+        A column of the lap table, or ``instrument.item`` for a survey answer.
+    condition, reference
+        Names of the two conditions; the effect is condition minus reference.
+    kind
+        Confirmatory comparisons of one family are corrected together (Holm).
+    family
+        Name of that family.
+    equivalence_margin
+        Margin of an equivalence test (TOST) in the outcome's unit; None for none.
+    """
+
+    name: Name
+    outcome: Annotated[str, AfterValidator(_lap_outcome_or_item)] = "lap_time_s"
+    condition: Name
+    reference: Name
+    kind: Literal["confirmatory", "exploratory"] = "exploratory"
+    family: Name = "primary"
+    equivalence_margin: Annotated[float, Field(gt=0)] | None = None
+
+    @property
+    def item(self) -> tuple[str, str] | None:
+        """Instrument and item of a survey outcome; None for a lap outcome."""
+        if self.outcome in LAP_OUTCOMES:
+            return None
+        instrument, _, item = self.outcome.rpartition(".")
+        return instrument, item

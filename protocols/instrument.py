@@ -1,0 +1,93 @@
+"""An instrument as data: a questionnaire's items and the scale they are answered on."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from protocols.fault import Fault, InconsistentError
+from protocols.part import Name, Part
+
+ItemId = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]+$", max_length=40)]
+
+
+class Item(Part):
+    """One statement or question.
+
+    Attributes
+    ----------
+    id
+        Short id, unique in the instrument; the record names the item by it.
+    text
+        The wording, as the person reads it.
+    subscale
+        Name of the composite the item belongs to; items of one subscale are averaged.
+    reverse
+        Whether agreement means less of what the subscale measures.
+    asked
+        Whether the item makes sense after any lap, or only where somebody could help.
+    """
+
+    id: ItemId
+    text: Annotated[str, Field(min_length=1)]
+    subscale: Name = "total"
+    reverse: bool = False
+    asked: Literal["every lap", "assisted laps"] = "every lap"
+
+
+class Instrument(Part):
+    """A questionnaire: items answered on one ordinal scale.
+
+    Attributes
+    ----------
+    anchors
+        Labels of the scale's points, from 1 upwards; their number is the number of points.
+    agreement_from
+        Lowest point that counts as agreement.
+    source
+        Where the wording comes from.
+    """
+
+    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    name: Name
+    title: Annotated[str, Field(min_length=1)]
+    source: str = ""
+    anchors: Annotated[tuple[str, ...], Field(min_length=2, max_length=11)]
+    agreement_from: Annotated[int, Field(ge=2)]
+    items: Annotated[tuple[Item, ...], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _parts_agree(self) -> Self:
+        faults = tuple(self._faults())
+        if faults:
+            raise InconsistentError(faults)
+        return self
+
+    def _faults(self) -> Iterator[Fault]:
+        if self.agreement_from > self.points:
+            message = (
+                f"{self.agreement_from} is not a point of the scale; allowed: 2 to {self.points}"
+            )
+            yield Fault(("agreement_from",), message)
+        ids = [item.id for item in self.items]
+        for i, given in enumerate(ids):
+            if given in ids[:i]:
+                yield Fault(
+                    ("items", i, "id"), f"'{given}' is an earlier item's id; ids are unique"
+                )
+
+    @property
+    def points(self) -> int:
+        """Number of points of the scale; answers are 1 to this."""
+        return len(self.anchors)
+
+    def item(self, item_id: str) -> Item:
+        """Return the item of this id; ``KeyError`` when there is none."""
+        for item in self.items:
+            if item.id == item_id:
+                return item
+        raise KeyError(item_id)
+
+    def ids(self, *, assisted: bool) -> tuple[str, ...]:
+        """Return the ids of the items that apply to a lap in which somebody could help or not."""
+        return tuple(i.id for i in self.items if assisted or i.asked == "every lap")

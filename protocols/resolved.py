@@ -1,0 +1,41 @@
+"""A study with everything it refers to: nothing left to look up."""
+
+from dataclasses import dataclass
+
+from protocols.course.schema import Course
+from protocols.instrument import Instrument, Item
+from protocols.study import StudyProtocol
+
+
+@dataclass(frozen=True, slots=True)
+class ResolvedStudy:
+    """A protocol, its course and its instruments.
+
+    Attributes
+    ----------
+    protocol
+        Refers to course and instruments by their names, and to every item by its id.
+    course
+        The course of that name.
+    instruments
+        The instruments asked after any lap, in the order of their first use.
+    """
+
+    protocol: StudyProtocol
+    course: Course
+    instruments: tuple[Instrument, ...]
+
+    def instrument(self, name: str) -> Instrument:
+        """Return the instrument of this name; ``KeyError`` when the study asks no such one."""
+        for instrument in self.instruments:
+            if instrument.name == name:
+                return instrument
+        raise KeyError(name)
+
+    def questions(self, lap: int) -> tuple[tuple[Instrument, Item], ...]:
+        """Return what is asked after a lap (counted from 0), in order."""
+        asked = []
+        for survey in self.protocol.laps[lap].survey:
+            instrument = self.instrument(survey.instrument)
+            asked += [(instrument, instrument.item(item)) for item in survey.items]
+        return tuple(asked)

@@ -1,0 +1,88 @@
+"""A study as data: what a protocol file may say."""
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from lad.hyperparameters import LADParameters
+from protocols.cohort import Cohort, Options
+from protocols.condition import Condition
+from protocols.consistency import check_consistency
+from protocols.declared import Comparison, Exclusion
+from protocols.part import Name, Part, shipped_or_factory
+from protocols.plan import PlannedLap
+
+
+class ModelChoice(Part):
+    """The assistant that learns; Table I of the paper is the default.
+
+    ``parameters`` are those of the shipped model, ``options`` those of somebody else's.
+    """
+
+    use: shipped_or_factory("lad") = "lad"  # type: ignore[valid-type]
+    parameters: LADParameters = LADParameters()
+    options: Options = {}
+
+    @model_validator(mode="after")
+    def _options_are_for_others(self) -> Self:
+        if self.use == "lad" and self.options:
+            raise ValueError("options are for a model of your own; lad takes parameters")
+        return self
+
+
+class LaserSettings(Part):
+    """The simulated laser: rays over 240 degrees, and who casts them.
+
+    Attributes
+    ----------
+    rays
+        At least one in each of the model's 12 degree segments.
+    caster
+        ``sweep`` is our compiled sweep over the course's walls, ``pybullet`` the physics engine.
+    """
+
+    rays: Annotated[int, Field(ge=21, le=2000)] = 180
+    caster: Literal["sweep", "pybullet"] = "sweep"
+
+
+class StudyProtocol(Part):
+    """A study: its people, its conditions, its laps in order, and what it declares in advance.
+
+    Attributes
+    ----------
+    schema_version
+        Version of the file format; ``schema`` in a file.
+    name, title, description
+        What the study is called, and what it is about.
+    course
+        A shipped course's name, or a file's path relative to the protocol file.
+    conditions
+        Ways of driving a lap, by name.
+    laps
+        What a participant does, in order.
+    control_period_s
+        Length of a control step, in s.
+    """
+
+    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    name: Name
+    title: Annotated[str, Field(min_length=1)]
+    description: str = ""
+    course: Annotated[str, Field(min_length=1)] = "lab-office"
+    cohort: Cohort = Cohort()
+    conditions: Annotated[dict[Name, Condition], Field(min_length=1)]
+    laps: Annotated[tuple[PlannedLap, ...], Field(min_length=1, max_length=200)]
+    model: ModelChoice = ModelChoice()
+    exclusion: Exclusion = Exclusion()
+    analyses: tuple[Comparison, ...] = ()
+    control_period_s: Annotated[float, Field(ge=0.02, le=0.5)] = 0.1
+    laser: LaserSettings = LaserSettings()
+
+    @model_validator(mode="after")
+    def _parts_agree(self) -> Self:
+        check_consistency(self.conditions, self.laps, self.analyses)
+        return self
+
+    def condition_of(self, lap: int) -> Condition:
+        """Return the condition of a lap, counted from 0."""
+        return self.conditions[self.laps[lap].condition]
