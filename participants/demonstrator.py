@@ -1,0 +1,13 @@
+"""The seam every demonstrator fits: it sees the room, and it may help."""
+
+from typing import Protocol
+
+from lad.assistant import Assistant
+from participants.sight import Onlooker
+
+
+class Demonstrator(Assistant, Onlooker, Protocol):
+    """Who watches and takes over; as a shadow it is asked the same way and touches nothing.
+
+    In every step of every lap: ``look(sight)``, then ``assist(x)``.
+    """

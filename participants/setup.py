@@ -1,0 +1,81 @@
+"""What a factory of people gets to work with."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from participants.survey import Question
+from participants.traits import ResponseStyle, Traits
+from protocols.course.schema import Course
+
+NO_OPTIONS: Mapping[str, Any] = MappingProxyType({})
+
+
+@dataclass(frozen=True, slots=True)
+class DriverSetup:
+    """What a driver is made of.
+
+    Attributes
+    ----------
+    course
+        The course it is going to drive.
+    rng
+        The driver's own random numbers for the whole session; each lap brings its own.
+    traits
+        Who the driver is; None for drivers that are no persons.
+    options
+        The protocol's options for this driver, as written in the file.
+    folder
+        Where relative paths in the options start; None for the working directory.
+    """
+
+    course: Course
+    rng: np.random.Generator
+    traits: Traits | None = None
+    options: Mapping[str, Any] = field(default=NO_OPTIONS)
+    folder: Path | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class DemonstratorSetup:
+    """What a demonstrator is made of.
+
+    Attributes
+    ----------
+    course
+        The course it watches over.
+    rng
+        The demonstrator's own random numbers; it derives those of each lap from them.
+    options
+        The protocol's options for this demonstrator, as written in the file.
+    """
+
+    course: Course
+    rng: np.random.Generator
+    options: Mapping[str, Any] = field(default=NO_OPTIONS)
+
+
+@dataclass(frozen=True, slots=True)
+class RespondentSetup:
+    """What a survey respondent is made of.
+
+    Attributes
+    ----------
+    questions
+        Every question the study is going to ask, in any lap.
+    rng
+        The respondent's own random numbers for the whole session; each survey brings its own.
+    style
+        How this person answers; None for a respondent without habits.
+    options
+        The protocol's options for respondents, as written in the file.
+    """
+
+    questions: tuple[Question, ...]
+    rng: np.random.Generator
+    style: ResponseStyle | None = None
+    options: Mapping[str, Any] = field(default=NO_OPTIONS)
