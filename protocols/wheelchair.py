@@ -15,3 +15,18 @@ ACCELERATION = 0.7
 
 TURN_ACCELERATION = 1.5
 """Rotational acceleration the controller allows, rad/s^2."""
+
+WIDTH = 0.55
+"""Overall width, m."""
+
+FRONT = 0.62
+"""How far the chair reaches ahead of the driven axle, m."""
+
+REAR = 0.23
+"""How far the chair reaches behind the driven axle, m."""
+
+LASER_AHEAD = 0.60
+"""The laser's mounting point ahead of the driven axle, m."""
+
+LASER_HEIGHT = 0.30
+"""The laser's height above the floor, m: anything lower is not seen."""

@@ -1,0 +1,82 @@
+"""The course as a raster: what is free, and how far the nearest obstacle is."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from protocols.course.obstacles import floor_plan
+from protocols.course.schema import Course
+
+MARGIN = 0.5
+"""How far the raster reaches past the outermost obstacle, start, gate or centreline, m."""
+
+
+@dataclass(frozen=True, slots=True)
+class Occupancy:
+    """A raster of the floor.
+
+    Attributes
+    ----------
+    origin
+        x and y of the centre of cell (0, 0), m.
+    cell
+        Edge length of a cell, m.
+    free
+        Shape (rows, columns), rows along y, columns along x: whether a cell's centre is outside
+        every obstacle.
+    distance
+        Same shape: distance from the cell's centre to the nearest obstacle, m, right within one
+        cell; 0 where occupied.
+    """
+
+    origin: tuple[float, float]
+    cell: float
+    free: NDArray[np.bool_]
+    distance: NDArray[np.float64]
+
+    def index(self, x: float, y: float) -> tuple[int, int]:
+        """Return (row, column) of the cell a point lies in, clamped to the raster's edge."""
+        row = round((y - self.origin[1]) / self.cell)
+        column = round((x - self.origin[0]) / self.cell)
+        rows, columns = self.free.shape
+        return min(max(row, 0), rows - 1), min(max(column, 0), columns - 1)
+
+    def centre(self, row: int, column: int) -> tuple[float, float]:
+        """Return x and y of a cell's centre, m."""
+        return self.origin[0] + column * self.cell, self.origin[1] + row * self.cell
+
+
+def occupancy(course: Course, cell: float = 0.05) -> Occupancy:
+    """Rasterise a course.
+
+    Parameters
+    ----------
+    course
+        The course.
+    cell
+        Edge length of a cell, m.
+    """
+    plan = floor_plan(course)
+    low_x, low_y, high_x, high_y = _bounds(course, plan)
+    columns = math.ceil((high_x - low_x) / cell) + 1
+    rows = math.ceil((high_y - low_y) / cell) + 1
+    xs, ys = np.meshgrid(low_x + cell * np.arange(columns), low_y + cell * np.arange(rows))
+    shapely.prepare(plan)
+    free = ~shapely.contains_xy(plan, xs, ys)
+    between_centres = ndimage.distance_transform_edt(free, sampling=cell)
+    distance = np.clip(between_centres - cell / 2, 0.0, None)
+    return Occupancy((low_x, low_y), cell, free, distance)
+
+
+def _bounds(
+    course: Course, plan: shapely.Polygon | shapely.MultiPolygon
+) -> tuple[float, float, float, float]:
+    gates = [p for gate in course.gates for p in (gate.left, gate.right)]
+    points = np.array([*course.centreline, (course.start.x, course.start.y), *gates])
+    low = np.minimum(points.min(axis=0), plan.bounds[:2]) - MARGIN
+    high = np.maximum(points.max(axis=0), plan.bounds[2:]) + MARGIN
+    return float(low[0]), float(low[1]), float(high[0]), float(high[1])
