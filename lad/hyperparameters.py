@@ -29,16 +29,16 @@ def _sequence(value: object) -> object:
 
 
 TemporalScale = Annotated[
-    float, BeforeValidator(_number), Field(ge=1e-6, le=1e6, allow_inf_nan=False)
+    float, Field(ge=1e-6, le=1e6, allow_inf_nan=False), BeforeValidator(_number)
 ]
 Lengthscale = Annotated[
-    float, BeforeValidator(_number), Field(ge=1e-9, le=1e12, allow_inf_nan=False)
+    float, Field(ge=1e-9, le=1e12, allow_inf_nan=False), BeforeValidator(_number)
 ]
-Variance = Annotated[float, BeforeValidator(_number), Field(ge=1e-9, le=1e9, allow_inf_nan=False)]
-Novelty = Annotated[float, BeforeValidator(_number), Field(gt=0, lt=1, allow_inf_nan=False)]
-Capacity = Annotated[int, BeforeValidator(_number), Field(ge=1, le=20_000)]
-RecursionDepth = Annotated[int, BeforeValidator(_number), Field(ge=1, le=1_000)]
-Threshold = Annotated[float, BeforeValidator(_number), Field(ge=0, le=1, allow_inf_nan=False)]
+Variance = Annotated[float, Field(ge=1e-9, le=1e9, allow_inf_nan=False), BeforeValidator(_number)]
+Novelty = Annotated[float, Field(gt=0, lt=1, allow_inf_nan=False), BeforeValidator(_number)]
+Capacity = Annotated[int, Field(ge=1, le=20_000), BeforeValidator(_number)]
+RecursionDepth = Annotated[int, Field(ge=1, le=1_000), BeforeValidator(_number)]
+Threshold = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False), BeforeValidator(_number)]
 
 
 def _one_line(name: str, error: ValidationError) -> str:
@@ -112,7 +112,7 @@ or equal to 1 (given 0)
     """
 
     lengthscales: Annotated[
-        tuple[Lengthscale, ...], BeforeValidator(_sequence), Field(min_length=1)
+        tuple[Lengthscale, ...], Field(min_length=1), BeforeValidator(_sequence)
     ]
     noise_variance: Variance
     capacity: Capacity = 400
