@@ -49,21 +49,21 @@ class DriverChoice(Part):
     """Who sits in the wheelchair."""
 
     use: shipped_or_factory("human", "autonomous", "scripted") = "human"  # type: ignore[valid-type]
-    options: Options = {}
+    options: Options = Field(default_factory=dict)
 
 
 class DemonstratorChoice(Part):
     """Who watches and takes over, or as a shadow says what they would do."""
 
     use: shipped_or_factory("attentive") = "attentive"  # type: ignore[valid-type]
-    options: Options = {}
+    options: Options = Field(default_factory=dict)
 
 
 class RespondentChoice(Part):
     """Who answers the questions."""
 
     use: shipped_or_factory("ordinal") = "ordinal"  # type: ignore[valid-type]
-    options: Options = {}
+    options: Options = Field(default_factory=dict)
 
 
 class Cohort(Part):

@@ -72,7 +72,8 @@ def _analysis_faults(
     laps: tuple[PlannedLap, ...],
     analyses: tuple[Comparison, ...],
 ) -> Iterator[Fault]:
-    driven = {lap.condition for lap in laps if not lap.practice}
+    driven = {lap.condition: None for lap in laps if not lap.practice}
+    misspelt = any(lap.condition not in conditions for lap in laps)
     names: set[str] = set()
     for i, comparison in enumerate(analyses):
         if comparison.name in names:
@@ -83,7 +84,7 @@ def _analysis_faults(
             given = getattr(comparison, role)
             if given not in conditions:
                 yield Fault(("analyses", i, role), _unknown_condition(given, conditions))
-            elif given not in driven:
+            elif given not in driven and not misspelt:
                 message = f"no lap to analyse has the condition '{given}'; {allowed(given, driven)}"
                 yield Fault(("analyses", i, role), message)
         if comparison.condition == comparison.reference:

@@ -21,7 +21,7 @@ class ModelChoice(Part):
 
     use: shipped_or_factory("lad") = "lad"  # type: ignore[valid-type]
     parameters: LADParameters = LADParameters()
-    options: Options = {}
+    options: Options = Field(default_factory=dict)
 
     @model_validator(mode="after")
     def _options_are_for_others(self) -> Self:

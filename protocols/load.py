@@ -1,0 +1,234 @@
+"""Load a study and everything it refers to."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from protocols.course.drivable import check_drivable
+from protocols.course.schema import Course
+from protocols.errors import InputError
+from protocols.fault import Fault
+from protocols.instrument import Instrument
+from protocols.plan import PlannedLap, SurveyPlan
+from protocols.resolved import ResolvedStudy
+from protocols.shipped import Source, locate, shipped_names
+from protocols.study import StudyProtocol
+from protocols.suggestion import allowed
+from protocols.validation import validate
+
+
+def shipped_protocols() -> tuple[str, ...]:
+    """Return the names of the shipped protocols, sorted."""
+    return shipped_names("studies")
+
+
+def shipped_courses() -> tuple[str, ...]:
+    """Return the names of the shipped courses, sorted."""
+    return shipped_names("courses")
+
+
+def shipped_instruments() -> tuple[str, ...]:
+    """Return the names of the shipped instruments, sorted."""
+    return shipped_names("instruments")
+
+
+def load_protocol(name_or_path: str) -> StudyProtocol:
+    """Return a protocol as its file says it, without looking up what it refers to.
+
+    Raises
+    ------
+    InputError
+        When there is no such file, or its content is not a protocol.
+    """
+    return validate(locate("studies", name_or_path).document(), StudyProtocol)
+
+
+def load_course(name_or_path: str) -> Course:
+    """Return a course that can be driven.
+
+    Raises
+    ------
+    InputError
+        When there is no such file, its content is not a course, or nobody could drive it.
+    """
+    return _course(locate("courses", name_or_path))
+
+
+def load_instrument(name_or_path: str) -> Instrument:
+    """Return a questionnaire.
+
+    Raises
+    ------
+    InputError
+        When there is no such file, or its content is not an instrument.
+    """
+    return validate(locate("instruments", name_or_path).document(), Instrument)
+
+
+def resolve_study(
+    name_or_path: str, *, course: str | None = None, participants: int | None = None
+) -> ResolvedStudy:
+    """Return a study with its course and its instruments, checked against one another.
+
+    Parameters
+    ----------
+    name_or_path
+        A shipped protocol's name, or a file.
+    course
+        A shipped course's name or a file, in place of the protocol's own course.
+    participants
+        In place of the protocol's own number; 1 to 9999.
+
+    Raises
+    ------
+    InputError
+        In one line: file, line, field, what is wrong and what is allowed.
+    """
+    if participants is not None and not 1 <= participants <= 9999:
+        raise InputError(f"participants: {participants} is out of range; allowed: 1 to 9999")
+    source = locate("studies", name_or_path)
+    document = source.document()
+    protocol = validate(document, StudyProtocol)
+    try:
+        chosen = (
+            _referred_course(protocol, source.folder) if course is None else load_course(course)
+        )
+        instruments = _instruments(protocol, source.folder)
+    except _ReferenceError as error:
+        raise document.error([error.fault]) from None
+    faults = [*_survey_faults(protocol, instruments), *_outcome_faults(protocol, instruments)]
+    if faults:
+        raise document.error(faults)
+    return _resolved(protocol, chosen, instruments, participants)
+
+
+def check_file(name_or_path: str) -> ResolvedStudy | Course | Instrument:
+    """Load a file of any kind; what it is follows from its fields.
+
+    Raises
+    ------
+    InputError
+        When it is not a valid protocol, course or instrument.
+    """
+    data = locate("studies", name_or_path).document().data
+    fields = data.keys() if isinstance(data, dict) else ()
+    if "walls" in fields or "gates" in fields:
+        return load_course(name_or_path)
+    if "items" in fields or "anchors" in fields:
+        return load_instrument(name_or_path)
+    return resolve_study(name_or_path)
+
+
+class _ReferenceError(Exception):
+    """A protocol refers to something that is not there."""
+
+    def __init__(self, fault: Fault) -> None:
+        super().__init__(fault.message)
+        self.fault = fault
+
+
+def _course(source: Source) -> Course:
+    course = validate(source.document(), Course)
+    try:
+        check_drivable(course)
+    except InputError as error:
+        raise InputError(f"{source.label}: {error}") from None
+    return course
+
+
+def _referred_course(protocol: StudyProtocol, folder: Path | None) -> Course:
+    try:
+        source = locate("courses", protocol.course, folder)
+    except InputError as error:
+        raise _ReferenceError(Fault(("course",), str(error))) from None
+    return _course(source)
+
+
+def _instruments(protocol: StudyProtocol, folder: Path | None) -> dict[str, Instrument]:
+    """Return the instruments by what the protocol calls them."""
+    found: dict[str, Instrument] = {}
+    for i, lap in enumerate(protocol.laps):
+        for j, survey in enumerate(lap.survey):
+            if survey.instrument in found:
+                continue
+            where = ("laps", i, "survey", j, "instrument")
+            try:
+                source = locate("instruments", survey.instrument, folder)
+            except InputError as error:
+                raise _ReferenceError(Fault(where, str(error))) from None
+            instrument = validate(source.document(), Instrument)
+            if instrument.name in (other.name for other in found.values()):
+                message = f"another instrument of this study is named '{instrument.name}' too"
+                raise _ReferenceError(Fault(where, message))
+            found[survey.instrument] = instrument
+    return found
+
+
+def _survey_faults(protocol: StudyProtocol, instruments: dict[str, Instrument]) -> Iterator[Fault]:
+    for i, lap in enumerate(protocol.laps):
+        for j, survey in enumerate(lap.survey):
+            instrument = instruments[survey.instrument]
+            ids = instrument.ids(assisted=True)
+            asked = _asked(survey, instrument, assisted=_assisted(protocol, lap))
+            if not asked:
+                message = f"no item of '{instrument.name}' applies to a lap without assistance"
+                yield Fault(("laps", i, "survey", j), message)
+            for k, item in enumerate(asked):
+                if item not in ids:
+                    message = (
+                        f"'{item}' is not an item of '{instrument.name}'; {allowed(item, ids)}"
+                    )
+                    yield Fault(("laps", i, "survey", j, "items", k), message)
+
+
+def _outcome_faults(protocol: StudyProtocol, instruments: dict[str, Instrument]) -> Iterator[Fault]:
+    """Find comparisons of answers that the plan does not ask for."""
+    for i, comparison in enumerate(protocol.analyses):
+        if comparison.item is None:
+            continue
+        name, item = comparison.item
+        for condition in (comparison.condition, comparison.reference):
+            if (condition, name, item) not in set(_questions(protocol, instruments)):
+                message = f"'{item}' of '{name}' is not asked after a lap of '{condition}'"
+                yield Fault(("analyses", i, "outcome"), message)
+
+
+def _questions(
+    protocol: StudyProtocol, instruments: dict[str, Instrument]
+) -> Iterator[tuple[str, str, str]]:
+    for lap in protocol.laps:
+        if lap.practice:
+            continue
+        for survey in lap.survey:
+            instrument = instruments[survey.instrument]
+            for item in _asked(survey, instrument, assisted=_assisted(protocol, lap)):
+                yield lap.condition, instrument.name, item
+
+
+def _assisted(protocol: StudyProtocol, lap: PlannedLap) -> bool:
+    return protocol.conditions[lap.condition].assistant != "none"
+
+
+def _asked(survey: SurveyPlan, instrument: Instrument, *, assisted: bool) -> tuple[str, ...]:
+    return instrument.ids(assisted=assisted) if survey.items == "all" else survey.items
+
+
+def _resolved(
+    protocol: StudyProtocol,
+    course: Course,
+    instruments: dict[str, Instrument],
+    participants: int | None,
+) -> ResolvedStudy:
+    def named(lap: PlannedLap, survey: SurveyPlan) -> SurveyPlan:
+        instrument = instruments[survey.instrument]
+        items = _asked(survey, instrument, assisted=_assisted(protocol, lap))
+        return SurveyPlan(instrument=instrument.name, items=items)
+
+    laps = tuple(
+        lap.model_copy(update={"survey": tuple(named(lap, survey) for survey in lap.survey)})
+        for lap in protocol.laps
+    )
+    cohort = protocol.cohort
+    if participants is not None:
+        cohort = cohort.model_copy(update={"participants": participants})
+    changes = {"course": course.name, "laps": laps, "cohort": cohort}
+    return ResolvedStudy(protocol.model_copy(update=changes), course, tuple(instruments.values()))

@@ -1,0 +1,90 @@
+"""Find a protocol, a course or an instrument: a shipped name, or a file."""
+
+from dataclasses import dataclass
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import Literal
+
+from protocols.document import MAX_BYTES, Document, parse
+from protocols.errors import InputError
+from protocols.suggestion import allowed
+
+Kind = Literal["studies", "courses", "instruments"]
+_WORD = {"studies": "protocol", "courses": "course", "instruments": "instrument"}
+_SUFFIXES = (".yaml", ".yml")
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A file that was found.
+
+    Attributes
+    ----------
+    label
+        How messages name it.
+    file
+        The file itself.
+    folder
+        Where relative paths inside it start; None for a shipped file.
+    """
+
+    label: str
+    file: Traversable
+    folder: Path | None
+
+    def text(self) -> bytes:
+        """Return the content; ``InputError`` when it cannot be read."""
+        try:
+            with self.file.open("rb") as stream:
+                return stream.read(MAX_BYTES + 1)
+        except OSError as error:
+            raise InputError(f"{self.label}: cannot be read: {error.strerror}") from None
+
+    def document(self) -> Document:
+        """Return the content as YAML; ``InputError`` when it is none."""
+        return parse(self.text(), self.label)
+
+
+def shipped_names(kind: Kind) -> tuple[str, ...]:
+    """Return the names of what comes with the package, sorted."""
+    names = (file.name for file in files("protocols").joinpath(kind).iterdir())
+    return tuple(sorted(n.removesuffix(".yaml") for n in names if n.endswith(".yaml")))
+
+
+def locate(kind: Kind, name_or_path: str, folder: Path | None = None) -> Source:
+    """Find a file by a shipped name or a path; a shipped name wins.
+
+    Parameters
+    ----------
+    kind
+        What is looked for.
+    name_or_path
+        As a person gave it.
+    folder
+        Where a relative path starts; None for the current directory.
+
+    Raises
+    ------
+    InputError
+        When there is no such file; lists what is shipped.
+    """
+    shipped = shipped_names(kind)
+    if name_or_path in shipped:
+        name = f"{name_or_path}.yaml"
+        return Source(name, files("protocols").joinpath(kind, name), None)
+    path = Path(name_or_path) if folder is None else folder / name_or_path
+    try:
+        if path.is_file():
+            return Source(str(path), path, path.parent)
+        is_folder = path.is_dir()
+    except (OSError, ValueError):  # a name too long, or with a null character in it
+        is_folder = False
+    looks_like_path = len(Path(name_or_path).parts) > 1 or path.suffix in _SUFFIXES
+    if is_folder and name_or_path:
+        what = f"{name_or_path}: is a folder, not a {_WORD[kind]} file"
+    elif looks_like_path:
+        what = f"{name_or_path}: no such file"
+    else:
+        what = f"no {_WORD[kind]} is named {name_or_path!r}"
+    raise InputError(f"{what}; {allowed(path.stem, ('a file', *shipped))}")
