@@ -80,7 +80,7 @@ class Centreline:
             Arc length in [0, ``length``], and signed distance from the centreline, left positive.
         """
         low, high = (0.0, self.length) if near is None else (near - REACH, near + REACH)
-        arc, offset = _project(self.points, self.arcs, x, y, low, high)
+        arc, offset = _project(self.points, self.arcs, (x, y), (low, high))
         return arc, offset
 
     def point(self, arc: float) -> Pose:
@@ -101,8 +101,10 @@ class Centreline:
 
 
 @compiled
-def _project(points: Any, arcs: Any, x: float, y: float, low: float, high: float) -> Any:
+def _project(points: Any, arcs: Any, at: Any, between: Any) -> Any:
     """Nearest point of the polyline between two arc lengths: (arc, signed offset)."""
+    x, y = at
+    low, high = between
     best = np.inf
     arc = min(max(low, 0.0), arcs[-1])
     side = 0.0

@@ -1,5 +1,6 @@
 """What stands in the way: walls and furniture as oriented boxes, and their outlines."""
 
+import itertools
 import math
 from typing import NamedTuple
 
@@ -62,7 +63,7 @@ def _pieces(wall: Wall) -> list[Box]:
     points = [*wall.points, wall.points[0]] if wall.closed else list(wall.points)
     n = len(points) - 1
     boxes = []
-    for i, (a, b) in enumerate(zip(points[:-1], points[1:], strict=True)):
+    for i, (a, b) in enumerate(itertools.pairwise(points)):
         before = points[i - 1] if i > 0 else (points[-2] if wall.closed else None)
         after = points[i + 2] if i + 2 <= n else (points[1] if wall.closed else None)
         back = _overlap(before, a, b, wall.thickness)
@@ -100,7 +101,10 @@ def segments(course: Course) -> NDArray[np.float64]:
     return np.ascontiguousarray(edges.reshape(-1, 4))
 
 
-def floor_plan(course: Course) -> shapely.MultiPolygon | shapely.Polygon:
+FloorPlan = shapely.Polygon | shapely.MultiPolygon
+
+
+def floor_plan(course: Course) -> FloorPlan:
     """Return the union of all boxes as seen from above."""
     polygons = [shapely.Polygon(box.corners()) for box in obstacle_boxes(course)]
     merged = shapely.union_all(polygons)

@@ -8,7 +8,7 @@ import shapely
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from protocols.course.obstacles import floor_plan
+from protocols.course.obstacles import FloorPlan, floor_plan
 from protocols.course.schema import Course
 
 MARGIN = 0.5
@@ -66,15 +66,13 @@ def occupancy(course: Course, cell: float = 0.05) -> Occupancy:
     rows = math.ceil((high_y - low_y) / cell) + 1
     xs, ys = np.meshgrid(low_x + cell * np.arange(columns), low_y + cell * np.arange(rows))
     shapely.prepare(plan)
-    free = ~shapely.contains_xy(plan, xs, ys)
+    free = np.asarray(~shapely.contains_xy(plan, xs, ys), dtype=np.bool_)
     between_centres = ndimage.distance_transform_edt(free, sampling=cell)
     distance = np.clip(between_centres - cell / 2, 0.0, None)
     return Occupancy((low_x, low_y), cell, free, distance)
 
 
-def _bounds(
-    course: Course, plan: shapely.Polygon | shapely.MultiPolygon
-) -> tuple[float, float, float, float]:
+def _bounds(course: Course, plan: FloorPlan) -> tuple[float, float, float, float]:
     gates = [p for gate in course.gates for p in (gate.left, gate.right)]
     points = np.array([*course.centreline, (course.start.x, course.start.y), *gates])
     low = np.minimum(points.min(axis=0), plan.bounds[:2]) - MARGIN

@@ -1,49 +1,54 @@
 """A course as data: what a course file may say."""
 
-from typing import Annotated, Literal
+import itertools
+import math
+from collections.abc import Iterator
+from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field, model_validator
 
-Point = tuple[float, float]
+from protocols.fault import Fault, InconsistentError, Location
+from protocols.part import Name, Part
+
+Metres = Annotated[float, Field(ge=-1000, le=1000)]
+Point = tuple[Metres, Metres]
 SectionKind = Literal["straight", "sharp_right", "soft_right", "left"]
-Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9 _.-]*$")]
+
+MIN_STEP = 1e-3
+"""Points of a polyline closer than this count as the same, m."""
 
 
-class _Part(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-
-class Wall(_Part):
+class Wall(Part):
     """A wall along a polyline; its faces stand half a thickness to either side."""
 
     name: Name
-    points: Annotated[tuple[Point, ...], Field(min_length=2)]
+    points: Annotated[tuple[Point, ...], Field(min_length=2, max_length=1000)]
     closed: bool = False
     thickness: Annotated[float, Field(gt=0, le=1)] = 0.1
     height: Annotated[float, Field(gt=0, le=5)] = 1.2
 
 
-class Furniture(_Part):
+class Furniture(Part):
     """A box on the floor: centre, heading of its length, and size in metres."""
 
     name: Name
-    x: float
-    y: float
+    x: Metres
+    y: Metres
     heading: float = 0.0
     length: Annotated[float, Field(gt=0, le=10)]
     width: Annotated[float, Field(gt=0, le=10)]
     height: Annotated[float, Field(gt=0, le=5)] = 0.8
 
 
-class Start(_Part):
+class Start(Part):
     """Where a lap starts: the midpoint of the driven axle and the heading in radians."""
 
-    x: float
-    y: float
+    x: Metres
+    y: Metres
     heading: float
 
 
-class Gate(_Part):
+class Gate(Part):
     """A line to cross; gates count only in their order."""
 
     name: Name
@@ -51,7 +56,7 @@ class Gate(_Part):
     right: Point
 
 
-class Section(_Part):
+class Section(Part):
     """A stretch of the centreline, up to an arc length in metres (the last one: to the end)."""
 
     name: Name
@@ -59,7 +64,7 @@ class Section(_Part):
     until: Annotated[float, Field(gt=0)] | None = None
 
 
-class Course(_Part):
+class Course(Part):
     """Walls, furniture, start, ordered gates and a centreline cut into labelled sections.
 
     The centreline is for metrics and for drivers with a map; it ends at the last gate.
@@ -73,5 +78,63 @@ class Course(_Part):
     furniture: tuple[Furniture, ...] = ()
     start: Start
     gates: Annotated[tuple[Gate, ...], Field(min_length=1)]
-    centreline: Annotated[tuple[Point, ...], Field(min_length=2)]
+    centreline: Annotated[tuple[Point, ...], Field(min_length=2, max_length=10_000)]
     sections: Annotated[tuple[Section, ...], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _parts_agree(self) -> Self:
+        faults = (*self._degenerate(), *self._repeated_names(), *self._uncovered())
+        if faults:
+            raise InconsistentError(faults)
+        return self
+
+    def _degenerate(self) -> Iterator[Fault]:
+        """Find lines of no length."""
+        for i, wall in enumerate(self.walls):
+            yield from _repeated_points(wall.points, ("walls", i, "points"))
+            if wall.closed and math.dist(wall.points[0], wall.points[-1]) < MIN_STEP:
+                message = "a closed wall returns by itself; leave out its last point"
+                yield Fault(("walls", i, "points", len(wall.points) - 1), message)
+        for i, gate in enumerate(self.gates):
+            if math.dist(gate.left, gate.right) < MIN_STEP:
+                yield Fault(("gates", i), f"gate {gate.name}: left and right are the same point")
+        yield from _repeated_points(self.centreline, ("centreline",))
+
+    def _repeated_names(self) -> Iterator[Fault]:
+        """Find gates or sections that cannot be told apart in the record."""
+        for field, parts in (("gates", self.gates), ("sections", self.sections)):
+            names = [part.name for part in parts]
+            for i, name in enumerate(names):
+                if name in names[:i]:
+                    yield Fault((field, i, "name"), f"'{name}' is used twice; names must differ")
+
+    def _uncovered(self) -> Iterator[Fault]:
+        """Find sections that do not follow one another to the centreline's end."""
+        length = sum(math.dist(a, b) for a, b in itertools.pairwise(self.centreline))
+        reached = 0.0
+        for i, section in enumerate(self.sections[:-1]):
+            where = ("sections", i, "until")
+            if section.until is None:
+                yield Fault(
+                    where, f"section '{section.name}' needs it; only the last may go without"
+                )
+            elif not reached < section.until < length:
+                yield Fault(
+                    where,
+                    f"section '{section.name}' ends at {section.until:g} m; allowed: above "
+                    f"{reached:g} m, below the centreline's length of {length:.2f} m",
+                )
+            reached = section.until or reached
+        last = self.sections[-1]
+        if last.until is not None and abs(last.until - length) > 0.01:
+            yield Fault(
+                ("sections", len(self.sections) - 1, "until"),
+                f"section '{last.name}' is the last and must end with the centreline, at "
+                f"{length:.2f} m; leave 'until' out",
+            )
+
+
+def _repeated_points(points: tuple[Point, ...], where: Location) -> Iterator[Fault]:
+    for i, (a, b) in enumerate(itertools.pairwise(points), start=1):
+        if math.dist(a, b) < MIN_STEP:
+            yield Fault((*where, i), "repeats the point before it")
