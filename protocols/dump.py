@@ -5,8 +5,20 @@ from typing import Any
 
 from pydantic import BaseModel
 from ruamel.yaml import YAML
+from ruamel.yaml.comments import CommentedMap, CommentedSeq
+from ruamel.yaml.representer import RoundTripRepresenter
+from ruamel.yaml.scalarstring import DoubleQuotedScalarString
 
-_WIDTH = 100
+_WIDTH = 1_000_000  # a folded line would end in a space
+
+
+class _Representer(RoundTripRepresenter):
+    """Writes a missing value as ``null``, not as nothing."""
+
+
+_Representer.add_representer(
+    type(None), lambda self, _: self.represent_scalar("tag:yaml.org,2002:null", "null")
+)
 
 
 def to_yaml(model: BaseModel) -> str:
@@ -28,11 +40,25 @@ def plain_yaml(data: Any) -> str:
     TypeError
         When a value is none of these.
     """
-    yaml = YAML(typ="safe", pure=True)
-    yaml.default_flow_style = None
+    yaml = YAML(typ="rt", pure=True)
+    yaml.Representer = _Representer
     yaml.width = _WIDTH
-    yaml.sort_base_mapping_type_on_output = False
     yaml.allow_unicode = True
+    yaml.indent(mapping=2, sequence=4, offset=2)
     stream = io.StringIO()
-    yaml.dump(data, stream)
+    yaml.dump(_styled(data), stream)
     return stream.getvalue()
+
+
+def _styled(data: Any) -> Any:
+    """Put mappings on lines of their own and lists of plain values on one."""
+    if isinstance(data, dict):
+        return CommentedMap((_styled(key), _styled(value)) for key, value in data.items())
+    if isinstance(data, list):
+        items = CommentedSeq(_styled(value) for value in data)
+        if not any(isinstance(value, dict | list) for value in data):
+            items.fa.set_flow_style()
+        return items
+    if isinstance(data, str) and not data.isprintable():
+        return DoubleQuotedScalarString(data)  # line breaks of every kind survive in this style
+    return data
