@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from pathlib import Path
 
-from protocols.course.drivable import check_drivable
+from protocols.course.drivable import undrivable
 from protocols.course.schema import Course
 from protocols.errors import InputError
 from protocols.fault import Fault
@@ -127,11 +127,11 @@ class _ReferenceError(Exception):
 
 
 def _course(source: Source) -> Course:
-    course = validate(source.document(), Course)
-    try:
-        check_drivable(course)
-    except InputError as error:
-        raise InputError(f"{source.label}: {error}") from None
+    document = source.document()
+    course = validate(document, Course)
+    fault = undrivable(course)
+    if fault is not None:
+        raise document.error([fault])
     return course
 
 
