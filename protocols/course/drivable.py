@@ -15,6 +15,7 @@ from protocols.course.gates import GateCounter, forward
 from protocols.course.obstacles import FloorPlan, floor_plan, obstacle_boxes
 from protocols.course.occupancy import Occupancy, occupancy
 from protocols.course.schema import Course, Gate, Point
+from protocols.document import spoken
 from protocols.errors import InputError
 from protocols.fault import Fault
 
@@ -35,7 +36,7 @@ def check_drivable(course: Course) -> None:
     """
     fault = undrivable(course)
     if fault is not None:
-        raise InputError(f"course {course.name}: {fault.message}")
+        raise InputError(f"course {course.name}: {spoken(fault.where)}: {fault.message}")
 
 
 def undrivable(course: Course) -> Fault | None:
@@ -63,10 +64,10 @@ def _start(course: Course) -> Iterator[Fault]:
     chair = footprint(start.x, start.y, start.heading)
     for box in obstacle_boxes(course):
         if chair.intersects(shapely.Polygon(box.corners())):
-            yield Fault(("start",), f"start: the chair would stand in '{box.name}'")
+            yield Fault(("start",), f"the chair would stand in '{box.name}'")
     distance = math.dist(course.centreline[0], (start.x, start.y))
     if distance > NEARBY:
-        message = f"start: {distance:.2f} m from the centreline's beginning; allowed: {NEARBY:g} m"
+        message = f"{distance:.2f} m from the centreline's beginning; allowed: {NEARBY:g} m"
         yield Fault(("start",), message)
 
 
@@ -81,7 +82,7 @@ def _closed(course: Course, plan: FloorPlan) -> Iterator[Fault]:
             by = f" by {', '.join(sorted(across))}" if across else ""
             yield Fault(
                 ("gates", i),
-                f"gate {gate.name}: closed{by}; its widest opening is {widest:.2f} m, the chair "
+                f"{gate.name} is closed{by}; its widest opening is {widest:.2f} m, the chair "
                 f"needs {wheelchair.WIDTH:.2f} m",
             )
 
@@ -90,7 +91,7 @@ def _centreline(course: Course, plan: FloorPlan) -> Iterator[Fault]:
     line = shapely.LineString(course.centreline)
     if line.intersects(plan):
         x, y = shapely.get_coordinates(line.intersection(plan))[0]
-        message = f"centreline: runs through an obstacle at ({x:.2f}, {y:.2f})"
+        message = f"runs through an obstacle at ({x:.2f}, {y:.2f})"
         yield Fault(("centreline",), message)
     points = [(float(x), float(y)) for x, y in shapely.get_coordinates(line.segmentize(0.05))]
     (ax, ay), (bx, by) = points[-2:]
@@ -102,15 +103,12 @@ def _centreline(course: Course, plan: FloorPlan) -> Iterator[Fault]:
         counter.advance(before, after)
     if not counter.finished:
         name = course.gates[counter.passed].name
-        message = f"centreline: does not pass gate {name} in its turn, its left post on the left"
+        message = f"does not pass gate {name} in its turn, its left post on the left"
         yield Fault(("centreline",), message)
     last = course.gates[-1]
     rest = shapely.Point(bx, by).distance(shapely.LineString([last.left, last.right]))
     if rest > END_TOLERANCE:
-        message = (
-            f"centreline: ends {rest:.2f} m from the last gate, {last.name}; "
-            f"allowed: {END_TOLERANCE:g} m"
-        )
+        message = f"ends {rest:.2f} m from the last gate, {last.name}; allowed: {END_TOLERANCE:g} m"
         yield Fault(("centreline",), message)
 
 
@@ -126,7 +124,7 @@ def _path(course: Course) -> Iterator[Fault]:
         if not _found(grid, labels, here) & _found(grid, labels, _beside(gate, -2 * grid.cell)):
             yield Fault(
                 ("gates", i),
-                f"gate {gate.name}: no way of the chair's width ({wheelchair.WIDTH:.2f} m) leads "
+                f"{gate.name}: no way of the chair's width ({wheelchair.WIDTH:.2f} m) leads "
                 f"there from {previous}",
             )
         here = _beside(gate, 2 * grid.cell)
