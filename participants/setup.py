@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -11,8 +10,6 @@ import numpy as np
 from participants.survey import Question
 from participants.traits import ResponseStyle, Traits
 from protocols.course.schema import Course
-
-NO_OPTIONS: Mapping[str, Any] = MappingProxyType({})
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +33,7 @@ class DriverSetup:
     course: Course
     rng: np.random.Generator
     traits: Traits | None = None
-    options: Mapping[str, Any] = field(default=NO_OPTIONS)
+    options: Mapping[str, Any] = field(default_factory=dict)
     folder: Path | None = None
 
 
@@ -56,7 +53,7 @@ class DemonstratorSetup:
 
     course: Course
     rng: np.random.Generator
-    options: Mapping[str, Any] = field(default=NO_OPTIONS)
+    options: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,4 +75,4 @@ class RespondentSetup:
     questions: tuple[Question, ...]
     rng: np.random.Generator
     style: ResponseStyle | None = None
-    options: Mapping[str, Any] = field(default=NO_OPTIONS)
+    options: Mapping[str, Any] = field(default_factory=dict)
