@@ -1,6 +1,6 @@
 """Say what is allowed, and guess what was meant."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 
 
@@ -16,3 +16,18 @@ def allowed(given: str, names: Iterable[str]) -> str:
     listed = f"allowed: {', '.join(names) or 'nothing'}"
     near = get_close_matches(given, names, n=1)
     return f"{listed} (did you mean '{near[0]}'?)" if near else listed
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return the end of a message: what there is, shortened where it is much.
+
+    Examples
+    --------
+    >>> listed(["P0001", "P0002"])
+    'allowed: P0001, P0002'
+    >>> listed([f"P{n:04d}" for n in range(1, 500)])
+    'allowed: P0001, P0002, P0003, ..., P0499 (499 in all)'
+    """
+    if len(names) > 12:
+        return f"allowed: {', '.join(names[:3])}, ..., {names[-1]} ({len(names)} in all)"
+    return f"allowed: {', '.join(names) or 'nothing'}"

@@ -1,13 +1,13 @@
 """One participant's whole visit, in memory, and as the bytes of its files."""
 
-import io
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import pyarrow as pa
-import pyarrow.parquet as pq
 
+from protocols.record.manifest import MANIFEST_FILE, manifest_of
+from protocols.record.parquet import parquet_bytes
 from protocols.record.rows import LapRow, ParticipantRow, SurveyRow
 from protocols.record.tables import LAP_SCHEMA, PARTICIPANT_SCHEMA, SURVEY_SCHEMA
 
@@ -17,8 +17,8 @@ SURVEYS_FILE = "survey_rows.parquet"
 MODEL_FILE = "model.npz"
 
 
-def steps_file(lap: int) -> str:
-    """Return the name of a lap's step table.
+def steps_file(lap: int | str) -> str:
+    """Return the name of a lap's step table; of every lap's for ``"*"``.
 
     Examples
     --------
@@ -59,7 +59,10 @@ class SessionRecord:
 
 
 def encode(session: SessionRecord) -> dict[str, bytes]:
-    """Return the session's files: name to content. The same session gives the same bytes."""
+    """Return the session's files: name to content.
+
+    The same session gives the same bytes; the manifest also names the software in use.
+    """
     files = {
         PARTICIPANT_FILE: parquet_bytes(_rows([session.participant], PARTICIPANT_SCHEMA)),
         LAPS_FILE: parquet_bytes(_rows([lap.row for lap in session.laps], LAP_SCHEMA)),
@@ -69,23 +72,7 @@ def encode(session: SessionRecord) -> dict[str, bytes]:
         files[steps_file(lap.row.lap)] = parquet_bytes(lap.steps)
     if session.model is not None:
         files[MODEL_FILE] = session.model
-    return files
-
-
-def parquet_bytes(table: pa.Table) -> bytes:
-    """Return a table as Parquet, with settings that leave nothing to chance."""
-    sink = io.BytesIO()
-    pq.write_table(table, sink, **PARQUET_SETTINGS)
-    return sink.getvalue()
-
-
-PARQUET_SETTINGS: dict[str, Any] = {
-    "compression": "zstd",
-    "compression_level": 3,
-    "version": "2.6",
-    "data_page_version": "1.0",
-    "store_schema": True,
-}
+    return files | {MANIFEST_FILE: manifest_of(files)}
 
 
 def _rows(rows: Sequence[Any], schema: pa.Schema) -> pa.Table:

@@ -1,0 +1,64 @@
+"""Files that are there whole or not at all, whatever kills the process."""
+
+import os
+import shutil
+from pathlib import Path
+
+PARTIAL = ".partial-"
+"""How names of unfinished files and folders begin; nobody reads them."""
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file so that, at every moment, it has its old content or its new one.
+
+    Raises
+    ------
+    OSError
+        When it cannot be written; the old content is still there.
+    """
+    partial = partial_beside(path)
+    try:
+        write_through(partial, content)
+        partial.replace(path)
+    except BaseException:
+        partial.unlink(missing_ok=True)
+        raise
+    sync_folder(path.parent)
+
+
+def partial_beside(path: Path) -> Path:
+    """Return where to build a file or folder before it gets its name."""
+    return path.with_name(f"{PARTIAL}{path.name}-{os.getpid()}")
+
+
+def write_through(path: Path, content: bytes) -> None:
+    """Write a file and wait until it is on the disk."""
+    with path.open("wb") as stream:
+        stream.write(content)
+        stream.flush()
+        os.fsync(stream.fileno())
+
+
+def sync_folder(folder: Path) -> None:
+    """Wait until a folder's list of names is on the disk, where the system can say so."""
+    if os.name != "posix":
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def is_partial(path: Path) -> bool:
+    """Tell whether a file or folder is unfinished."""
+    return path.name.startswith(PARTIAL)
+
+
+def remove_partials(folder: Path) -> None:
+    """Remove what a killed process left unfinished in a folder."""
+    for path in folder.glob(f"{PARTIAL}*"):
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path, ignore_errors=True)
+        else:
+            path.unlink(missing_ok=True)

@@ -1,0 +1,46 @@
+"""The codebook: every column of the record, generated from the schema."""
+
+import json
+from typing import Any
+
+from protocols.record.column import Column
+from protocols.record.steps import STEP_COLUMNS
+from protocols.record.tables import LAP_COLUMNS, PARTICIPANT_COLUMNS, SURVEY_COLUMNS
+
+CODEBOOK_FILE = "codebook.json"
+
+TABLES: dict[str, tuple[Column, ...]] = {
+    "participants": PARTICIPANT_COLUMNS,
+    "laps": LAP_COLUMNS,
+    "surveys": SURVEY_COLUMNS,
+    "steps": STEP_COLUMNS,
+}
+"""The record's tables by name."""
+
+
+def codebook() -> dict[str, Any]:
+    """Return every table's columns: name, type, unit, description, allowed values, may be missing.
+
+    Examples
+    --------
+    >>> codebook()["tables"]["laps"][1]["name"]
+    'lap'
+    """
+    tables = {name: [_entry(c) for c in columns] for name, columns in TABLES.items()}
+    return {"schema": 1, "tables": tables}
+
+
+def codebook_json() -> str:
+    """Return the codebook as the text of ``codebook.json``."""
+    return json.dumps(codebook(), indent=1, ensure_ascii=False) + "\n"
+
+
+def _entry(column: Column) -> dict[str, Any]:
+    return {
+        "name": column.name,
+        "type": str(column.type),
+        "unit": column.unit,
+        "description": column.description,
+        "allowed": column.allowed,
+        "nullable": column.nullable,
+    }

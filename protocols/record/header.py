@@ -1,0 +1,91 @@
+"""The head of a study directory: ``study.yaml``."""
+
+import platform
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from protocols.course.schema import Course
+from protocols.document import parse
+from protocols.dump import to_yaml
+from protocols.errors import InputError
+from protocols.instrument import Instrument
+from protocols.part import Part
+from protocols.record.atomic import write_whole
+from protocols.record.identity import study_digest
+from protocols.resolved import ResolvedStudy
+from protocols.study import StudyProtocol
+from protocols.validation import validate
+from protocols.versions import package_versions
+
+STUDY_FILE = "study.yaml"
+
+
+class StudyHeader(Part):
+    """What a study directory says about itself.
+
+    Attributes
+    ----------
+    protocol, course, instruments
+        The study as it was resolved.
+    seed
+        None for a study that was not simulated.
+    digest
+        Of protocol, course, instruments and seed, not of the number of participants.
+    versions, platform
+        Of the run that made the directory; every session's manifest has its own.
+    """
+
+    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    seed: Annotated[int, Field(ge=0)] | None = None
+    digest: str | None = None
+    platform: str | None = None
+    versions: dict[str, str] = Field(default_factory=dict)
+    protocol: StudyProtocol
+    instruments: tuple[Instrument, ...] = ()
+    course: Course
+
+    @property
+    def study(self) -> ResolvedStudy:
+        """The study, with everything it refers to."""
+        return ResolvedStudy(self.protocol, self.course, self.instruments)
+
+
+def header_of(study: ResolvedStudy, seed: int) -> StudyHeader:
+    """Return the head of a study that is about to be run here."""
+    return StudyHeader(
+        seed=seed,
+        digest=study_digest(study, seed),
+        platform=platform.platform(),
+        versions=package_versions(),
+        protocol=study.protocol,
+        instruments=study.instruments,
+        course=study.course,
+    )
+
+
+def write_header(folder: Path, header: StudyHeader) -> None:
+    """Write ``study.yaml``, whole or not at all."""
+    write_whole(folder / STUDY_FILE, to_yaml(header).encode())
+
+
+def read_header(folder: Path) -> StudyHeader:
+    """Return what a study directory says about itself.
+
+    Raises
+    ------
+    InputError
+        When the folder is no study directory, or its ``study.yaml`` cannot be used.
+    """
+    path = folder / STUDY_FILE
+    if not folder.is_dir():
+        what = "is a file, not a study directory" if folder.exists() else "no such folder"
+        raise InputError(f"{folder}: {what}")
+    if not path.is_file():
+        raise InputError(f"{folder}: not a study directory; there is no {STUDY_FILE} in it")
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    return validate(parse(content, str(path)), StudyHeader)

@@ -1,0 +1,69 @@
+"""What makes two studies the same: protocol, course, instruments and seed."""
+
+import hashlib
+import json
+from collections.abc import Iterator
+from typing import Any
+
+from protocols.document import spoken
+from protocols.fault import Location
+from protocols.resolved import ResolvedStudy
+
+_ABSENT = object()
+
+
+def study_digest(study: ResolvedStudy, seed: int) -> str:
+    """Return the SHA-256 of everything a session depends on besides the participant's number.
+
+    The number of participants is left out: a study can be enlarged.
+    """
+    text = json.dumps(_identity(study, seed), sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def differences(
+    here: ResolvedStudy, here_seed: int | None, wanted: ResolvedStudy, wanted_seed: int
+) -> tuple[str, ...]:
+    """Return in words how a recorded study differs from the one that is wanted; empty when not.
+
+    Examples of an entry: ``seed: 0 there, 1 wanted``;
+    ``protocol.conditions.limited.limitation.right_turn_rad_s: 0.15 there, 0.2 wanted``.
+    """
+    pairs = _unequal(_identity(here, here_seed), _identity(wanted, wanted_seed), ())
+    return tuple(
+        f"{spoken(where)}: {_shown(there)} there, {_shown(want)} wanted"
+        for where, there, want in pairs
+    )
+
+
+def _identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
+    protocol = study.protocol.model_dump(mode="json", by_alias=True)
+    del protocol["cohort"]["participants"]
+    return {
+        "seed": seed,
+        "protocol": protocol,
+        "course": study.course.model_dump(mode="json", by_alias=True),
+        "instruments": [i.model_dump(mode="json", by_alias=True) for i in study.instruments],
+    }
+
+
+def _unequal(there: Any, wanted: Any, where: Location) -> Iterator[tuple[Location, Any, Any]]:
+    if isinstance(there, dict) and isinstance(wanted, dict):
+        for key in dict.fromkeys((*there, *wanted)):
+            yield from _unequal(there.get(key, _ABSENT), wanted.get(key, _ABSENT), (*where, key))
+    elif isinstance(there, list) and isinstance(wanted, list) and len(there) == len(wanted):
+        for i, (left, right) in enumerate(zip(there, wanted, strict=True)):
+            yield from _unequal(left, right, (*where, i))
+    elif there != wanted:
+        yield where, there, wanted
+
+
+def _shown(value: Any) -> str:
+    if value is _ABSENT:
+        return "nothing"
+    if isinstance(value, list):
+        return f"{len(value)} entries"
+    if isinstance(value, dict):
+        return "a mapping"
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."

@@ -1,0 +1,76 @@
+"""The study's tables, built from its sessions."""
+
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from protocols.errors import InputError
+from protocols.record.atomic import partial_beside, sync_folder
+from protocols.record.parquet import PARQUET_SETTINGS, read_parquet
+from protocols.record.session import LAPS_FILE, PARTICIPANT_FILE, SURVEYS_FILE
+from protocols.record.sessions import SESSIONS, finished_sessions
+from protocols.record.tables import LAP_SCHEMA, PARTICIPANT_SCHEMA, SURVEY_SCHEMA
+
+PARTICIPANTS_TABLE = "participants.parquet"
+LAPS_TABLE = "laps.parquet"
+SURVEYS_TABLE = "surveys.parquet"
+
+_TABLES = (
+    (PARTICIPANTS_TABLE, PARTICIPANT_FILE, PARTICIPANT_SCHEMA),
+    (LAPS_TABLE, LAPS_FILE, LAP_SCHEMA),
+    (SURVEYS_TABLE, SURVEYS_FILE, SURVEY_SCHEMA),
+)
+_SESSIONS_PER_ROW_GROUP = 500
+
+
+def build_tables(folder: Path) -> None:
+    """Build participants, laps and surveys from the whole sessions of a study directory.
+
+    The tables depend on the sessions alone, not on the order in which they were finished, and
+    never more than a few hundred sessions' rows are in memory.
+
+    Raises
+    ------
+    InputError
+        When a session's file cannot be read; names it. The old tables are still there then.
+    """
+    participants = finished_sessions(folder)
+    for table, part, schema in _TABLES:
+        _build(folder, table, part, schema, participants)
+
+
+def _build(
+    folder: Path, table: str, part: str, schema: pa.Schema, participants: Sequence[str]
+) -> None:
+    target = folder / table
+    partial = partial_beside(target)
+    try:
+        with pq.ParquetWriter(partial, schema, **PARQUET_SETTINGS) as writer:
+            for rows in _row_groups(folder / SESSIONS, part, schema, participants):
+                writer.write_table(rows)
+        with partial.open("rb") as stream:
+            os.fsync(stream.fileno())
+        partial.replace(target)
+    except BaseException:
+        partial.unlink(missing_ok=True)
+        raise
+    sync_folder(folder)
+
+
+def _row_groups(
+    sessions: Path, part: str, schema: pa.Schema, participants: Sequence[str]
+) -> Iterator[pa.Table]:
+    for start in range(0, len(participants), _SESSIONS_PER_ROW_GROUP):
+        names = participants[start : start + _SESSIONS_PER_ROW_GROUP]
+        tables = [_rows(sessions / name / part, schema) for name in names]
+        yield pa.concat_tables(tables).combine_chunks()
+
+
+def _rows(path: Path, schema: pa.Schema) -> pa.Table:
+    table = read_parquet(path)
+    if not table.schema.equals(schema):
+        raise InputError(f"{path}: its columns are not those of this version's record")
+    return table

@@ -1,0 +1,53 @@
+"""Parquet the way this project writes and reads it."""
+
+import io
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from protocols.errors import InputError
+
+PARQUET_SETTINGS: dict[str, Any] = {
+    "compression": "zstd",
+    "compression_level": 3,
+    "version": "2.6",
+    "data_page_version": "1.0",
+}
+"""Everything that changes the bytes is said, so that no default can change them."""
+
+
+def parquet_bytes(table: pa.Table) -> bytes:
+    """Return a table as a Parquet file's content; the same table gives the same bytes."""
+    sink = io.BytesIO()
+    pq.write_table(table.combine_chunks(), sink, row_group_size=1 << 20, **PARQUET_SETTINGS)
+    return sink.getvalue()
+
+
+def read_parquet(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
+    """Return a Parquet file's table.
+
+    Parameters
+    ----------
+    path
+        The file.
+    columns
+        Those to read, in this order, of those that are there; None for all.
+
+    Raises
+    ------
+    InputError
+        When the file is missing or damaged; names it.
+    """
+    try:
+        with pq.ParquetFile(path) as file:
+            there = file.schema_arrow.names
+            wanted = None if columns is None else [c for c in columns if c in there]
+            return file.read(columns=wanted)
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such file") from None
+    except (pa.ArrowException, OSError) as error:
+        reason = str(error).partition("\n")[0]
+        raise InputError(f"{path}: not a readable Parquet file: {reason}") from None

@@ -1,0 +1,168 @@
+"""Read a study directory: one of ours, or one that was recorded elsewhere in our schema."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import pyarrow as pa
+
+from protocols.course.schema import Course
+from protocols.errors import InputError
+from protocols.instrument import Instrument
+from protocols.record.header import StudyHeader, read_header
+from protocols.record.logs import failures
+from protocols.record.merge import LAPS_TABLE, PARTICIPANTS_TABLE, SURVEYS_TABLE
+from protocols.record.minimal import LAPS, PARTICIPANTS, STEPS, SURVEYS, TableRules, conform
+from protocols.record.parquet import read_parquet
+from protocols.record.session import MODEL_FILE, steps_file
+from protocols.record.sessions import SESSIONS, read_manifest, session_folders
+from protocols.study import StudyProtocol
+from protocols.suggestion import listed
+
+
+@dataclass(frozen=True)
+class Study:
+    """A recorded study. Nothing is read before it is asked for; nothing is ever written.
+
+    Attributes
+    ----------
+    folder
+        The study directory.
+    header
+        What ``study.yaml`` says: protocol, course, instruments, seed, versions.
+    """
+
+    folder: Path
+    header: StudyHeader
+
+    @property
+    def protocol(self) -> StudyProtocol:
+        """The protocol as it was resolved."""
+        return self.header.protocol
+
+    @property
+    def course(self) -> Course:
+        """The course that was driven."""
+        return self.header.course
+
+    @property
+    def instruments(self) -> tuple[Instrument, ...]:
+        """The instruments that were asked."""
+        return self.header.instruments
+
+    @property
+    def seed(self) -> int | None:
+        """The seed; None for a study that was not simulated."""
+        return self.header.seed
+
+    @cached_property
+    def participants(self) -> pa.Table:
+        """One row per participant (``protocols.record.tables.PARTICIPANT_COLUMNS``)."""
+        return self._table(PARTICIPANTS_TABLE, PARTICIPANTS)
+
+    @cached_property
+    def laps(self) -> pa.Table:
+        """One row per lap begun (``protocols.record.tables.LAP_COLUMNS``)."""
+        return self._table(LAPS_TABLE, LAPS)
+
+    @cached_property
+    def surveys(self) -> pa.Table:
+        """One row per question asked; without rows when nothing was asked."""
+        if not (self.folder / SURVEYS_TABLE).exists():
+            nothing = pa.schema([pa.field(c.name, c.type) for c in SURVEYS.columns]).empty_table()
+            return conform(nothing, SURVEYS, self.folder / SURVEYS_TABLE)
+        return self._table(SURVEYS_TABLE, SURVEYS)
+
+    def sessions(self) -> tuple[str, ...]:
+        """Return the participants with a session folder, sorted."""
+        return tuple(path.name for path in session_folders(self.folder))
+
+    def failed(self) -> tuple[str, ...]:
+        """Return the participants whose session raised and was not run again, sorted."""
+        return tuple(name for name in failures(self.folder) if name not in self.sessions())
+
+    def steps(self, participant: str, lap: int, columns: Sequence[str] | None = None) -> pa.Table:
+        """Return a lap's steps (``protocols.record.steps.STEP_COLUMNS``).
+
+        Parameters
+        ----------
+        participant
+            The participant's id, e.g. P0001.
+        lap
+            Position of the lap in the session, counted from 0.
+        columns
+            Only these columns, in this order; None for all.
+
+        Raises
+        ------
+        InputError
+            When there is no such participant or lap (lists those there are), or the file is
+            damaged (names it).
+        """
+        path = self._session(participant) / steps_file(lap)
+        if not path.is_file():
+            known = [str(n) for n in self._recorded_laps(participant)]
+            raise InputError(f"{self.folder}: {participant} has no lap {lap}; {listed(known)}")
+        wanted = None if columns is None else [*columns, *STEPS.required]
+        table = conform(read_parquet(path, wanted), STEPS, path)
+        return table if columns is None else table.select(list(columns))
+
+    def has_steps(self, participant: str, lap: int) -> bool:
+        """Tell whether a lap's steps were recorded: elsewhere, they may not have been."""
+        return (self.folder / SESSIONS / participant / steps_file(lap)).is_file()
+
+    def model_bytes(self, participant: str) -> bytes | None:
+        """Return the learned model as saved (npz); None when nothing was learnt."""
+        path = self._session(participant) / MODEL_FILE
+        return path.read_bytes() if path.is_file() else None
+
+    def versions(self) -> tuple[dict[str, str], ...]:
+        """Return every distinct set of package versions that recorded sessions of this study."""
+        manifests = (read_manifest(path) for path in session_folders(self.folder))
+        distinct = {tuple(sorted(m.versions.items())): m.versions for m in manifests if m}
+        return tuple(distinct[key] for key in sorted(distinct))
+
+    def _session(self, participant: str) -> Path:
+        known = self.sessions()
+        if participant not in known:
+            raise InputError(f"{self.folder}: no participant {participant!r}; {listed(known)}")
+        return self.folder / SESSIONS / participant
+
+    def _recorded_laps(self, participant: str) -> list[int]:
+        names = (path.stem for path in self._session(participant).glob(steps_file("*")))
+        laps = (name.rpartition("-")[2] for name in names)
+        return sorted(int(lap) for lap in laps if lap.isdigit())
+
+    def _table(self, name: str, rules: TableRules) -> pa.Table:
+        path = self.folder / name
+        if not path.exists():
+            raise InputError(
+                f"{path}: no such file; the same `lad-study run` again finishes the study"
+            )
+        return conform(read_parquet(path), rules, path)
+
+
+def open_study(folder: Path | str) -> Study:
+    """Open a study directory.
+
+    Raises
+    ------
+    InputError
+        When it is none, has no session yet, or one of its tables cannot be used.
+
+    Examples
+    --------
+    >>> open_study("nowhere")
+    Traceback (most recent call last):
+    protocols.errors.InputError: nowhere: no such folder
+    """
+    folder = Path(folder)
+    study = Study(folder, read_header(folder))
+    has_tables = (folder / PARTICIPANTS_TABLE).exists()
+    if not has_tables and not study.sessions():
+        raise InputError(f"{folder}: no session in it yet; run the study first")
+    if not len(study.participants) or not len(study.laps):
+        raise InputError(f"{folder}: no session in it yet; run the study first")
+    len(study.surveys)
+    return study

@@ -1,0 +1,123 @@
+"""Session folders: each there whole or not at all."""
+
+import shutil
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from protocols.record.atomic import is_partial, partial_beside, sync_folder, write_through
+from protocols.record.manifest import MANIFEST_FILE, Manifest, entry, parse_manifest
+
+SESSIONS = "sessions"
+
+
+def write_session(folder: Path, participant: str, files: Mapping[str, bytes]) -> None:
+    """Add a session to a study directory: written beside its place, then renamed.
+
+    A whole session that is already there stays as it is; a damaged one is replaced.
+
+    Parameters
+    ----------
+    folder
+        The study directory.
+    participant
+        The participant's id, the session folder's name.
+    files
+        As ``protocols.record.session.encode`` returns them, manifest included.
+
+    Raises
+    ------
+    OSError
+        When it cannot be written; there is no such session then.
+    ValueError
+        When the files do not match their manifest.
+    """
+    target = folder / SESSIONS / participant
+    _check(participant, files)
+    if is_whole(target):
+        return
+    partial = partial_beside(target)
+    shutil.rmtree(partial, ignore_errors=True)
+    try:
+        partial.mkdir(parents=True)
+        for name in sorted(files):
+            write_through(partial / name, files[name])
+        sync_folder(partial)
+        _put_aside(target)
+        partial.rename(target)
+    except BaseException:
+        shutil.rmtree(partial, ignore_errors=True)
+        raise
+    sync_folder(target.parent)
+
+
+def _check(participant: str, files: Mapping[str, bytes]) -> None:
+    manifest = parse_manifest(files.get(MANIFEST_FILE, b""))
+    contents = {name: entry(files[name]) for name in files if name != MANIFEST_FILE}
+    if manifest is None or manifest.files != contents:
+        raise ValueError(f"session {participant}: the files do not match their manifest")
+
+
+def _put_aside(target: Path) -> None:
+    """Move a damaged session out of the way: a folder cannot be renamed onto another."""
+    if target.exists():
+        aside = partial_beside(target.with_name(f"damaged-{target.name}"))
+        shutil.rmtree(aside, ignore_errors=True)
+        target.rename(aside)
+        shutil.rmtree(aside, ignore_errors=True)
+
+
+def finished_sessions(folder: Path) -> tuple[str, ...]:
+    """Return the participants whose sessions are whole, sorted.
+
+    Whole means: every file of the manifest is there with its size. ``session_faults`` compares
+    checksums too.
+    """
+    return tuple(path.name for path in session_folders(folder) if is_whole(path))
+
+
+def session_folders(folder: Path) -> tuple[Path, ...]:
+    """Return every session folder of a study directory, whole or not, sorted by name."""
+    parent = folder / SESSIONS
+    if not parent.is_dir():
+        return ()
+    return tuple(sorted(p for p in parent.iterdir() if p.is_dir() and not is_partial(p)))
+
+
+def is_whole(session: Path) -> bool:
+    """Tell whether every file of a session's manifest is there with its size."""
+    manifest = read_manifest(session)
+    return manifest is not None and all(
+        _size(session / name) == file.bytes for name, file in manifest.files.items()
+    )
+
+
+def _size(path: Path) -> int | None:
+    try:
+        return path.stat().st_size
+    except OSError:
+        return None
+
+
+def read_manifest(session: Path) -> Manifest | None:
+    """Return a session's manifest; None when it has none that can be read."""
+    try:
+        return parse_manifest((session / MANIFEST_FILE).read_bytes())
+    except OSError:
+        return None
+
+
+def session_faults(session: Path) -> Iterator[str]:
+    """Compare a session's files with its manifest, and say in one line each what is wrong."""
+    manifest = read_manifest(session)
+    if manifest is None:
+        yield f"{session / MANIFEST_FILE}: missing or damaged"
+        return
+    for name, wanted in manifest.files.items():
+        path = session / name
+        if not path.is_file():
+            yield f"{path}: missing"
+        elif entry(path.read_bytes()) != wanted:
+            yield f"{path}: not what was written (its checksum differs)"
+    there = {path.name for path in session.iterdir()}
+    for name in sorted(there - manifest.files.keys() - {MANIFEST_FILE}):
+        yield f"{session / name}: not part of the session"
