@@ -1,24 +1,35 @@
 """Compilation of the numerical loops, cached on disk where that is possible."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any, TypeVar
 
 import numba
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-REORDERED = frozenset({"reassoc", "contract", "nsz"})
-"""Sums may be reordered and fused into multiply-adds; NaN and infinity keep their meaning."""
 
-
-def compiled(function: F) -> F:
+def compile_cached(function: F, fastmath: Iterable[str]) -> F:
     """Compile on first call, and keep the machine code beside the source for the next process.
 
     A read-only installation without a writable home has nowhere to keep it: numba raises when
     it is asked to, and the function is then compiled anew in each process.
     """
-    options: dict[str, Any] = {"nogil": True, "fastmath": set(REORDERED), "error_model": "numpy"}
+    options: dict[str, Any] = {"nogil": True, "fastmath": set(fastmath), "error_model": "numpy"}
     try:
         return numba.njit(cache=True, **options)(function)  # type: ignore[no-any-return]
     except RuntimeError:
         return numba.njit(cache=False, **options)(function)  # type: ignore[no-any-return]
+
+
+def compiled(function: F) -> F:
+    """Compile with the arithmetic in the order written; a product and a sum may be fused."""
+    return compile_cached(function, ("contract",))
+
+
+def compiled_sums(function: F) -> F:
+    """Compile with sums that may be reordered, which vectorises a running total.
+
+    Not for everything: freed from its order, LLVM also moves a division by a constant from
+    outside a loop to inside it.
+    """
+    return compile_cached(function, ("contract", "reassoc", "nsz"))

@@ -1,54 +1,152 @@
-"""The fused step: the same numbers as ``lad.plain``, in place on one triangle.
+# ruff: noqa: PLR0917  # compiled code takes arrays apart from objects
+"""The fused step: the numbers of ``lad.plain``, in place on one triangle.
 
 Everything that calls each other is in this one file, because numba's cache notices a change only
 in the file of the function it compiled.
 
-Layout. ``C`` and ``Q`` are square arrays of which the lower triangle counts. ``basis`` is
-(tau, d, room), so that the kernel's inner loop runs over basis vectors. ``alpha`` is (p, room).
+Layout. Of the square arrays ``C`` and ``Q`` the lower triangle counts. ``basis`` is
+(tau, d, room), so that the kernel's inner loop runs over basis vectors; ``alpha`` is (p, room).
+The rows of ``work`` are the vectors of the step in progress: k, then s (at first C k), then
+e = Q k, then the starred columns of a deletion.
 """
 
-import math
+from typing import Any
 
 import numpy as np
+from numba import types
+from numba.extending import intrinsic
+from numpy.typing import NDArray
 
-from lad.compiled import compiled
+from lad.compiled import compiled, compiled_sums
+
+Vector = NDArray[np.float64]
+Matrix = NDArray[np.float64]
+K_ROW, S_ROW, E_ROW, Q_STAR_ROW, D_ROW = range(5)
+SPARSE, FULL, REPLACED = 1, 2, 3
+
+LOG2_E = 1.4426950408889634
+LN2_HIGH = 6.93147180369123816490e-01
+LN2_LOW = 1.90821492927058770002e-10
+ROUNDER = 6755399441055744.0
+LOWEST_EXPONENT = -80.0
+
+
+def _reinterpretation(source: Any, target: Any) -> Any:
+    """Build a move of bits between registers; unlike a view of memory it lets a loop vectorise."""
+
+    def typed(_context: Any, _value: Any) -> Any:
+        def generate(context: Any, builder: Any, _signature: Any, args: Any) -> Any:
+            return builder.bitcast(args[0], context.get_value_type(target))
+
+        return target(source), generate
+
+    return intrinsic(typed)
+
+
+bits_of = _reinterpretation(types.float64, types.int64)
+from_bits = _reinterpretation(types.int64, types.float64)
 
 
 @compiled
-def kernel_vector(basis, window, n, squared_temporal_scale, signal_variance, k, scratch):  # type: ignore[no-untyped-def]
-    """Equation (7) against the first n basis vectors, into ``k``."""
+def exp_of_nonpositive(x: float) -> float:
+    """e^x for x <= 0, within one unit in the last place; below -80 it stays at e^-80 = 2e-35.
+
+    Written out because the library's exp is a call, and a loop with a call in it is not
+    vectorised: x = n ln 2 + r with |r| <= ln 2 / 2, a Taylor polynomial of degree 13 in r, and n
+    added to the exponent bits.
+    """
+    x = max(x, LOWEST_EXPONENT)
+    shifted = x * LOG2_E + ROUNDER
+    n = shifted - ROUNDER
+    r = (x - n * LN2_HIGH) - n * LN2_LOW
+    p = 1.0 / 6227020800.0
+    p = p * r + 1.0 / 479001600.0
+    p = p * r + 1.0 / 39916800.0
+    p = p * r + 1.0 / 3628800.0
+    p = p * r + 1.0 / 362880.0
+    p = p * r + 1.0 / 40320.0
+    p = p * r + 1.0 / 5040.0
+    p = p * r + 1.0 / 720.0
+    p = p * r + 1.0 / 120.0
+    p = p * r + 1.0 / 24.0
+    p = p * r + 1.0 / 6.0
+    p = p * r + 0.5
+    p = p * r + 1.0
+    p = p * r + 1.0
+    return from_bits(bits_of(p) + (bits_of(shifted) << 52))  # type: ignore[no-any-return]
+
+
+@compiled
+def kernel_vector(
+    basis: Vector,
+    window: Matrix,
+    n: int,
+    inverse_scale: float,
+    signal_variance: float,
+    k: Vector,
+    distance: Vector,
+) -> None:
+    """Equation (7) against the first n basis vectors, into ``k``; ``distance`` is scratch.
+
+    ``inverse_scale`` is 1 / sigma_rho^2. Inputs are taken four at a time: one load and store of
+    the running sum for four of them.
+    """
     depth, d = window.shape
     k[:n] = 1.0
     for lag in range(depth - 1, -1, -1):
-        scratch[:n] = 0.0
-        for j in range(d):
-            value = window[lag, j]
-            row = basis[lag, j]
+        distance[:n] = 0.0
+        for j in range(0, d - 3, 4):
+            x0, x1, x2, x3 = window[lag, j : j + 4]
+            b0, b1 = basis[lag, j], basis[lag, j + 1]
+            b2, b3 = basis[lag, j + 2], basis[lag, j + 3]
             for i in range(n):
-                difference = row[i] - value
-                scratch[i] += difference * difference
+                d0, d1, d2, d3 = b0[i] - x0, b1[i] - x1, b2[i] - x2, b3[i] - x3
+                distance[i] += (d0 * d0 + d1 * d1) + (d2 * d2 + d3 * d3)
+        for j in range(d - d % 4, d):
+            x0, b0 = window[lag, j], basis[lag, j]
+            for i in range(n):
+                d0 = b0[i] - x0
+                distance[i] += d0 * d0
         for i in range(n):
-            k[i] = math.exp(-0.5 * scratch[i] + (k[i] - 1.0) / squared_temporal_scale)
+            k[i] = exp_of_nonpositive(-0.5 * distance[i] + (k[i] - 1.0) * inverse_scale)
     for i in range(n):
         k[i] *= signal_variance
 
 
-@compiled
-def symmetric_product(matrix, vector, n, out):  # type: ignore[no-untyped-def]
-    """Product of the symmetric matrix of a lower triangle and a vector, into ``out``."""
+@compiled_sums
+def symmetric_product(matrix: Matrix, x: Vector, n: int, out: Vector) -> None:
+    """Product of the symmetric matrix of a lower triangle and x, into ``out``.
+
+    One pass over the triangle, four rows at a time: each row counts once as a row and once as
+    a column.
+    """
     out[:n] = 0.0
-    for a in range(n):
-        row = matrix[a]
-        value = vector[a]
-        total = 0.0
+    last = n - n % 4
+    for a in range(0, last, 4):
+        r0, r1, r2, r3 = matrix[a], matrix[a + 1], matrix[a + 2], matrix[a + 3]
+        x0, x1, x2, x3 = x[a], x[a + 1], x[a + 2], x[a + 3]
+        t0 = t1 = t2 = t3 = 0.0
         for b in range(a):
-            total += row[b] * vector[b]
-            out[b] += row[b] * value
-        out[a] += total + row[a] * value
+            m0, m1, m2, m3 = r0[b], r1[b], r2[b], r3[b]
+            t0 += m0 * x[b]
+            t1 += m1 * x[b]
+            t2 += m2 * x[b]
+            t3 += m3 * x[b]
+            out[b] += (m0 * x0 + m1 * x1) + (m2 * x2 + m3 * x3)
+        out[a] = t0 + r0[a] * x0 + r1[a] * x1 + r2[a] * x2 + r3[a] * x3
+        out[a + 1] = t1 + r1[a] * x0 + r1[a + 1] * x1 + r2[a + 1] * x2 + r3[a + 1] * x3
+        out[a + 2] = t2 + r2[a] * x0 + r2[a + 1] * x1 + r2[a + 2] * x2 + r3[a + 2] * x3
+        out[a + 3] = t3 + r3[a] * x0 + r3[a + 1] * x1 + r3[a + 2] * x2 + r3[a + 3] * x3
+    for a in range(last, n):
+        row, xa, total = matrix[a], x[a], 0.0
+        for b in range(a):
+            total += row[b] * x[b]
+            out[b] += row[b] * xa
+        out[a] = total + row[a] * xa
 
 
-@compiled
-def inner(a, b, n):  # type: ignore[no-untyped-def]
+@compiled_sums
+def inner(a: Vector, b: Vector, n: int) -> float:
     """Inner product of the first n entries."""
     total = 0.0
     for i in range(n):
@@ -57,152 +155,184 @@ def inner(a, b, n):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def predict(basis, window, n, squared_temporal_scale, signal_variance, C, alpha, work, mean):  # type: ignore[no-untyped-def]
-    """Fill k and C k (rows 0 and 1 of ``work``) and ``mean``; return k* + k'Ck."""
-    k, Ck, scratch = work[0], work[1], work[2]
-    kernel_vector(basis, window, n, squared_temporal_scale, signal_variance, k, scratch)
+def predict(
+    n: int,
+    C: Matrix,
+    alpha: Matrix,
+    basis: Vector,
+    work: Matrix,
+    window: Matrix,
+    inverse_scale: float,
+    prior: float,
+    mean: Vector,
+) -> float:
+    """Fill k and C k, and ``mean`` by equation (8); return equation (9)."""
+    k, Ck = work[K_ROW], work[S_ROW]
+    kernel_vector(basis, window, n, inverse_scale, prior, k, work[E_ROW])
     symmetric_product(C, k, n, Ck)
     for output in range(alpha.shape[0]):
         mean[output] = inner(alpha[output], k, n)
-    return signal_variance + inner(k, Ck, n)
+    return prior + inner(k, Ck, n)
 
 
 @compiled
-def add_outer(matrix, n, factor, vector):  # type: ignore[no-untyped-def]
-    """Add factor vector vector' to a lower triangle."""
+def add_outer(matrix: Matrix, n: int, factor: float, x: Vector) -> None:
+    """Add factor x x' to a lower triangle."""
     for a in range(n):
-        row = matrix[a]
-        value = factor * vector[a]
+        row, value = matrix[a], factor * x[a]
         for b in range(a + 1):
-            row[b] += value * vector[b]
+            row[b] += value * x[b]
 
 
 @compiled
-def place(basis, window, slot):  # type: ignore[no-untyped-def]
-    """Store the window as a basis vector."""
-    depth, d = window.shape
-    for lag in range(depth):
-        for j in range(d):
-            basis[lag, j, slot] = window[lag, j]
+def add_to_alpha(alpha: Matrix, n: int, q: Vector, factor: float, s: Vector) -> None:
+    """Alpha += factor s q'."""
+    for output in range(alpha.shape[0]):
+        row, value = alpha[output], factor * q[output]
+        for i in range(n):
+            row[i] += value * s[i]
 
 
 @compiled
-def residual(Q, n, signal_variance, work):  # type: ignore[no-untyped-def]
-    """Fill e = Q k (row 2 of ``work``) and return gamma = k* - k'e."""
-    symmetric_product(Q, work[0], n, work[2])
-    return signal_variance - inner(work[0], work[2], n)
-
-
-@compiled
-def sparse_update(n, C, alpha, work, gamma, q, r):  # type: ignore[no-untyped-def]
+def sparse_update(
+    n: int, C: Matrix, alpha: Matrix, work: Matrix, gamma: float, q: Vector, r: float
+) -> None:
     """Project the sample onto the basis vectors there are."""
     eta = 1.0 / (1.0 + gamma * r)
-    s = work[1]
+    s, e = work[S_ROW], work[E_ROW]
     for i in range(n):
-        s[i] += work[2, i]
-    for output in range(alpha.shape[0]):
-        for i in range(n):
-            alpha[output, i] += eta * q[output] * s[i]
+        s[i] += e[i]
+    add_to_alpha(alpha, n, q, eta, s)
     add_outer(C, n, r * eta, s)
 
 
 @compiled
-def full_update(n, C, Q, alpha, work, gamma, q, r):  # type: ignore[no-untyped-def]
+def full_update(
+    n: int, C: Matrix, Q: Matrix, alpha: Matrix, work: Matrix, gamma: float, q: Vector, r: float
+) -> None:
     """Add the sample as basis vector n."""
-    s, e = work[1], work[2]
+    s, e = work[S_ROW], work[E_ROW]
     s[n], e[n] = 1.0, -1.0
     C[n, : n + 1] = 0.0
     Q[n, : n + 1] = 0.0
+    alpha[:, n] = 0.0
+    add_to_alpha(alpha, n + 1, q, 1.0, s)
     add_outer(C, n + 1, r, s)
     add_outer(Q, n + 1, 1.0 / gamma, e)
+
+
+@compiled
+def lowest_score(
+    n: int, C: Matrix, Q: Matrix, alpha: Matrix, work: Matrix, gamma: float, q: Vector, r: float
+) -> int:
+    """Find whom to delete after a full update that has not been made yet; n is the new one."""
+    s, e, scores = work[S_ROW], work[E_ROW], work[D_ROW]
+    scores[: n + 1] = 0.0
     for output in range(alpha.shape[0]):
-        alpha[output, n] = 0.0
-        for i in range(n + 1):
-            alpha[output, i] += q[output] * s[i]
+        row = alpha[output]
+        for i in range(n):
+            value = row[i] + q[output] * s[i]
+            scores[i] += value * value
+        scores[n] += q[output] * q[output]
+    for i in range(n):
+        scores[i] /= (Q[i, i] + e[i] * e[i] / gamma) + (C[i, i] + r * s[i] * s[i])
+    scores[n] /= 1.0 / gamma + r
+    return int(np.argmin(scores[: n + 1]))
 
 
 @compiled
-def lowest_score(n, C, Q, alpha, s, e, gamma, q, r):  # type: ignore[no-untyped-def]
-    """Find the basis vector to delete as if the full update had been made; n is the new one."""
-    best, best_score = 0, np.inf
+def starred_columns(
+    n: int, slot: int, C: Matrix, Q: Matrix, work: Matrix, gamma: float, r: float
+) -> None:
+    """Fill Q* and D = Q* + C*, the columns of the updated matrices that belong to ``slot``."""
+    s, e, Q_star, D = work[S_ROW], work[E_ROW], work[Q_STAR_ROW], work[D_ROW]
+    Q_star[: n + 1] = 0.0
+    D[: n + 1] = 0.0
+    if slot < n:
+        for b in range(slot + 1):
+            Q_star[b], D[b] = Q[slot, b], C[slot, b]
+        for a in range(slot + 1, n):
+            Q_star[a], D[a] = Q[a, slot], C[a, slot]
     for i in range(n + 1):
-        diagonal = r * s[i] * s[i] + e[i] * e[i] / gamma
-        if i < n:
-            diagonal += C[i, i] + Q[i, i]
-        score = 0.0
-        for output in range(alpha.shape[0]):
-            value = q[output] * s[i]
-            if i < n:
-                value += alpha[output, i]
-            score += value * value
-        score /= diagonal
-        if score < best_score:
-            best, best_score = i, score
-    return best
+        Q_star[i] += e[i] * (e[slot] / gamma)
+        D[i] += r * s[i] * s[slot] + Q_star[i]
 
 
 @compiled
-def column(matrix, n, i, out):  # type: ignore[no-untyped-def]
-    """Column i of the symmetric matrix of a lower triangle, into ``out``."""
-    for b in range(i + 1):
-        out[b] = matrix[i, b]
-    for a in range(i + 1, n):
-        out[a] = matrix[a, i]
+def move_new_into(slot: int, n: int, C: Matrix, Q: Matrix, alpha: Matrix, work: Matrix) -> None:
+    """Let the new vector stand where the deleted one stood: its entries were zero so far."""
+    C[slot, : slot + 1] = 0.0
+    Q[slot, : slot + 1] = 0.0
+    for a in range(slot + 1, n):
+        C[a, slot] = 0.0
+        Q[a, slot] = 0.0
+    alpha[:, slot] = 0.0
+    for row in range(S_ROW, D_ROW + 1):
+        work[row, slot] = work[row, n]
 
 
 @compiled
-def clear(matrix, n, i):  # type: ignore[no-untyped-def]
-    """Set row and column i to zero."""
-    matrix[i, : i + 1] = 0.0
-    for a in range(i + 1, n):
-        matrix[a, i] = 0.0
+def update_and_delete(
+    n: int, C: Matrix, Q: Matrix, alpha: Matrix, work: Matrix, gamma: float, q: Vector, r: float
+) -> int:
+    """Add the sample, delete the lowest score, in one pass; return the slot of the deleted.
 
-
-@compiled
-def full_update_then_deletion(n, C, Q, alpha, work, gamma, q, r):  # type: ignore[no-untyped-def]
-    """Add the sample and delete the lowest score in one pass; return the slot deleted.
-
-    The new sample takes the deleted one's slot; slot n means that it was itself deleted. With
-    u = [e; -1], the step is C += r s s' + Q* Q*' / q* - D D' / (q* + c*), D = Q* + C*, and
+    The new vector takes that slot; slot n says that it was itself deleted. With u = [e; -1] and
+    D = Q* + C* the whole step is C += r s s' + Q* Q*' / q* - D D' / (q* + c*) and
     Q += u u' / gamma - Q* Q*' / q*.
     """
-    s, e, Q_star, D = work[1], work[2], work[3], work[4]
+    s, e, Q_star, D = work[S_ROW], work[E_ROW], work[Q_STAR_ROW], work[D_ROW]
     s[n], e[n] = 1.0, -1.0
-    slot = lowest_score(n, C, Q, alpha, s, e, gamma, q, r)
-    if slot < n:
-        column(Q, n, slot, Q_star)
-        column(C, n, slot, D)
-        Q_star[n] = D[n] = 0.0
-    else:
-        Q_star[: n + 1] = 0.0
-        D[: n + 1] = 0.0
-    for i in range(n + 1):
-        Q_star[i] += e[i] * e[slot] / gamma
-        D[i] += r * s[i] * s[slot] + Q_star[i]
-    q_star, sum_star = Q_star[slot], D[slot]
+    slot = lowest_score(n, C, Q, alpha, work, gamma, q, r)
+    starred_columns(n, slot, C, Q, work, gamma, r)
+    by_q, by_d = 1.0 / Q_star[slot], 1.0 / D[slot]
+    weights = np.empty(alpha.shape[0])
     for output in range(alpha.shape[0]):
-        weight = q[output] * s[slot]
+        weights[output] = q[output] * s[slot]
         if slot < n:
-            weight += alpha[output, slot]
-            alpha[output, slot] = 0.0
-        weight /= sum_star
-        value = q[output]
-        if slot < n:
-            s_slot, D_slot = s[slot], D[slot]
-            s[slot], D[slot] = s[n], D[n]
-        for i in range(n):
-            alpha[output, i] += value * s[i] - weight * D[i]
-        if slot < n:
-            s[slot], D[slot] = s_slot, D_slot
+            weights[output] += alpha[output, slot]
     if slot < n:
-        clear(C, n, slot)
-        clear(Q, n, slot)
-        s[slot], e[slot], Q_star[slot], D[slot] = s[n], e[n], Q_star[n], D[n]
+        move_new_into(slot, n, C, Q, alpha, work)
+    add_to_alpha(alpha, n, q, 1.0, s)
+    add_to_alpha(alpha, n, weights, -by_d, D)
     for a in range(n):
-        C_row, Q_row = C[a], Q[a]
-        sa, qa, da = r * s[a], Q_star[a] / q_star, D[a] / sum_star
-        ea = e[a] / gamma
+        row, sa, qa, da = C[a], r * s[a], by_q * Q_star[a], by_d * D[a]
         for b in range(a + 1):
-            C_row[b] += sa * s[b] + qa * Q_star[b] - da * D[b]
-            Q_row[b] += ea * e[b] - qa * Q_star[b]
+            row[b] += sa * s[b] + qa * Q_star[b] - da * D[b]
+    for a in range(n):
+        row, ea, qa = Q[a], e[a] / gamma, by_q * Q_star[a]
+        for b in range(a + 1):
+            row[b] += ea * e[b] - qa * Q_star[b]
     return slot
+
+
+@compiled
+def learn(
+    n: int,
+    capacity: int,
+    C: Matrix,
+    Q: Matrix,
+    alpha: Matrix,
+    work: Matrix,
+    prior: float,
+    least_novel: float,
+    q: Vector,
+    r: float,
+) -> tuple[int, float, int]:
+    """Take in the sample whose k and C k ``predict`` has filled.
+
+    Returns
+    -------
+    tuple
+        What was done (SPARSE, FULL or REPLACED), gamma, and the slot of the new vector; n with
+        REPLACED says that the new vector was itself deleted.
+    """
+    symmetric_product(Q, work[K_ROW], n, work[E_ROW])
+    gamma = prior - inner(work[K_ROW], work[E_ROW], n)
+    if gamma < least_novel:
+        sparse_update(n, C, alpha, work, gamma, q, r)
+        return SPARSE, gamma, n
+    if n < capacity:
+        full_update(n, C, Q, alpha, work, gamma, q, r)
+        return FULL, gamma, n
+    return REPLACED, gamma, update_and_delete(n, C, Q, alpha, work, gamma, q, r)

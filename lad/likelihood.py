@@ -9,12 +9,14 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import log_ndtr, ndtr
+from scipy.special import erfcx, ndtr
 
 from lad.errors import InvalidTargetError
 from lad.window import as_vector
 
 LARGEST_TARGET = 1e100
+SQRT_2 = math.sqrt(2.0)
+SQRT_2_OVER_PI = math.sqrt(2.0 / math.pi)
 LikelihoodName = Literal["gaussian", "probit"]
 ProbabilityForm = Literal["probit", "paper"]
 
@@ -46,13 +48,17 @@ def check_target(y: object, n_outputs: int, likelihood: LikelihoodName) -> NDArr
     """
     if n_outputs == 1 and np.ndim(y) == 0:  # type: ignore[arg-type]
         y = [y]
-    target = as_vector(y, n_outputs, "target", InvalidTargetError)
-    if likelihood == "probit" and target[0] not in (-1.0, 1.0):
-        raise InvalidTargetError(f"label: given {target[0]:g}; allowed are -1 and +1")
-    if np.abs(target).max() > LARGEST_TARGET:
-        raise InvalidTargetError(
-            f"target: given {np.abs(target).max():g}; allowed up to {LARGEST_TARGET:g}"
-        )
+    target = np.asarray(y)
+    if target.dtype.kind not in "fiu" or target.shape != (n_outputs,):
+        as_vector(y, n_outputs, "target", InvalidTargetError)
+    target = target.astype(np.float64, copy=False)
+    for value in target.tolist():
+        if not -LARGEST_TARGET <= value <= LARGEST_TARGET:
+            raise InvalidTargetError(
+                f"target: given {value:g}; allowed are finite numbers up to {LARGEST_TARGET:g}"
+            )
+        if likelihood == "probit" and value not in (-1.0, 1.0):
+            raise InvalidTargetError(f"label: given {value:g}; allowed are -1 and +1")
     return target
 
 
@@ -67,12 +73,13 @@ def probit_evidence(y: NDArray[np.float64], mean: NDArray[np.float64], variance:
     """Classification: with s = sqrt(v), z = y m / s and h = phi(z) / Phi(z).
 
     q = y h / s and r = -h (z + h) / v. (The reference MATLAB code has -(z + h^2) / v, with which
-    a variance can turn negative.)
+    a variance can turn negative.) erfcx(x) = exp(x^2) erfc(x) gives h without the cancellation
+    of log phi - log Phi, which loses digits as z^2 grows; h (z + h) lies in (0, 1).
     """
     s = math.sqrt(variance)
     z = float(y[0] * mean[0]) / s
-    h = math.exp(-0.5 * z * z - 0.5 * math.log(2.0 * math.pi) - float(log_ndtr(z)))
-    return Evidence(y * (h / s), -h * (z + h) / variance)
+    h = SQRT_2_OVER_PI / float(erfcx(-z / SQRT_2))
+    return Evidence(y * (h / s), -min(max(h * (z + h), 0.0), 1.0) / variance)
 
 
 def evidence(

@@ -65,7 +65,8 @@ def sparse_update(
 
 def deletion_scores(state: Posterior) -> NDArray[np.float64]:
     """Score every basis vector by how much the process would change without it."""
-    return (state.alpha**2).sum(axis=1) / (np.diag(state.Q) + np.diag(state.C))
+    squares: NDArray[np.float64] = np.square(state.alpha).sum(axis=1)
+    return squares / (np.diag(state.Q) + np.diag(state.C))
 
 
 def delete(state: Posterior, i: int) -> Posterior:
@@ -135,7 +136,7 @@ class PlainStorkGP:
         """Predict at the window as it stands: equations (8) and (9)."""
         k = self.kernel()
         hyper = self.hyperparameters
-        latent = max(hyper.signal_variance + k @ self.state.C @ k, SMALLEST_VARIANCE)
+        latent = max(hyper.signal_variance + float(k @ self.state.C @ k), SMALLEST_VARIANCE)
         return Prediction(k @ self.state.alpha, latent, latent + hyper.noise_variance)
 
     def learn(self, y: object) -> Update:

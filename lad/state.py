@@ -1,5 +1,6 @@
 """What a process has learnt, in arrays with room to grow."""
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -8,7 +9,18 @@ from numpy.typing import NDArray
 from lad.window import Window
 
 FIRST_ROOM = 32
+LINE = 8
+"""Float64 numbers in a cache line: rows are multiples of it, so that each begins on a line."""
+
 WORK_ROWS = 5
+
+
+def aligned_zeros(*shape: int) -> NDArray[np.float64]:
+    """Zeros that begin on a cache line."""
+    size = math.prod(shape)
+    buffer = np.zeros(size + LINE)
+    offset = (-buffer.ctypes.data // buffer.itemsize) % LINE
+    return buffer[offset : offset + size].reshape(shape)
 
 
 @dataclass
@@ -41,28 +53,32 @@ class State:
     n: int = field(default=0, init=False)
 
     def __post_init__(self) -> None:
-        self._allocate(min(FIRST_ROOM, self.capacity + 1))
+        self._allocate(min(FIRST_ROOM, self._most))
 
     def _allocate(self, room: int) -> None:
-        self.C = np.zeros((room, room))
-        self.Q = np.zeros((room, room))
-        self.alpha = np.zeros((self.n_outputs, room))
-        self.basis = np.zeros((self.depth, self.n_inputs, room))
+        self.C = aligned_zeros(room, room)
+        self.Q = aligned_zeros(room, room)
+        self.alpha = aligned_zeros(self.n_outputs, room)
+        self.basis = aligned_zeros(self.depth, self.n_inputs, room)
         self.times = np.zeros(room, dtype=np.int64)
         self.laps = np.zeros(room, dtype=np.int64)
-        self.work = np.zeros((WORK_ROWS, room))
+        self.work = aligned_zeros(WORK_ROWS, room)
+
+    @property
+    def _most(self) -> int:
+        return -(-(self.capacity + 1) // LINE) * LINE
 
     @property
     def room(self) -> int:
         """How many basis vectors the arrays can hold."""
-        return self.alpha.shape[1]
+        return int(self.alpha.shape[1])
 
     def make_room(self) -> None:
         """Make room for one vector more than there are, keeping everything, work included."""
         if self.n < self.room:
             return
         old = (self.C, self.Q, self.alpha, self.basis, self.times, self.laps, self.work)
-        self._allocate(min(2 * self.room, self.capacity + 1))
+        self._allocate(min(2 * self.room, self._most))
         new = (self.C, self.Q, self.alpha, self.basis, self.times, self.laps, self.work)
         for before, after in zip(old, new, strict=True):
             after[tuple(slice(size) for size in before.shape)] = before

@@ -70,6 +70,10 @@ class StorkGP:
             n_outputs=n_outputs,
             capacity=hyperparameters.capacity,
         )
+        self._prior = hyperparameters.signal_variance
+        self._noise = hyperparameters.noise_variance
+        self._inverse_scale = 1.0 / hyperparameters.squared_temporal_scale
+        self._least_novel = max(hyperparameters.novelty * self._prior, SMALLEST_NOVELTY)
         self._mean = np.zeros(n_outputs)
         self._latent = 0.0
         self._looked_at = -1
@@ -91,16 +95,16 @@ class StorkGP:
         """Fill k, C k, mean and latent variance, unless they are those of this window already."""
         if self._looked_at == self.window.version:
             return
-        hyper, state = self.hyperparameters, self.state
+        state = self.state
         latent = fused.predict(
-            state.basis,
-            self.window.scaled,
             state.n,
-            hyper.squared_temporal_scale,
-            hyper.signal_variance,
             state.C,
             state.alpha,
+            state.basis,
             state.work,
+            self.window.scaled,
+            self._inverse_scale,
+            self._prior,
             self._mean,
         )
         self._latent = max(latent, SMALLEST_VARIANCE)
@@ -109,9 +113,7 @@ class StorkGP:
     def predict(self) -> Prediction:
         """Predict at the window as it stands: equations (8) and (9). Changes nothing."""
         self._look()
-        return Prediction(
-            self._mean.copy(), self._latent, self._latent + self.hyperparameters.noise_variance
-        )
+        return Prediction(self._mean.copy(), self._latent, self._latent + self._noise)
 
     def learn(self, y: object) -> Update:
         """Learn the target of the window as it stands.
@@ -126,36 +128,41 @@ class StorkGP:
         InvalidTargetError
             When y has another shape or type or is not finite; nothing has changed.
         """
-        hyper = self.hyperparameters
         target = check_target(y, self.n_outputs, self.likelihood)
         self._look()
-        q, r = evidence(target, self._mean, self._latent + hyper.noise_variance, self.likelihood)
-        state, prior = self.state, hyper.signal_variance
-        gamma = fused.residual(state.Q, state.n, prior, state.work)
-        novelty = gamma / prior if gamma >= SMALLEST_NOVELTY else 0.0
-        self._looked_at = -1
-        if gamma < max(hyper.novelty * prior, SMALLEST_NOVELTY):
-            fused.sparse_update(state.n, state.C, state.alpha, state.work, gamma, q, r)
-            return Update(UpdateKind.SPARSE, novelty)
-        if state.n == hyper.capacity:
-            return Update(UpdateKind.FULL_THEN_DELETION, novelty, self._replace(gamma, q, r))
-        state.make_room()
-        fused.full_update(state.n, state.C, state.Q, state.alpha, state.work, gamma, q, r)
-        state.remember(self.window, state.n)
-        state.n += 1
-        return Update(UpdateKind.FIRST if state.n == 1 else UpdateKind.FULL, novelty)
-
-    def _replace(self, gamma: float, q: NDArray[np.float64], r: float) -> int:
-        """Full update, then deletion of the lowest score; return its time index."""
+        q, r = evidence(target, self._mean, self._latent + self._noise, self.likelihood)
         state = self.state
-        slot = fused.full_update_then_deletion(
-            state.n, state.C, state.Q, state.alpha, state.work, gamma, q, r
+        state.make_room()
+        self._looked_at = -1
+        done, gamma, slot = fused.learn(
+            state.n,
+            state.capacity,
+            state.C,
+            state.Q,
+            state.alpha,
+            state.work,
+            self._prior,
+            self._least_novel,
+            q,
+            r,
         )
+        novelty = gamma / self._prior if gamma >= SMALLEST_NOVELTY else 0.0
+        return self._take_in(done, novelty, slot)
+
+    def _take_in(self, done: int, novelty: float, slot: int) -> Update:
+        """Keep the window where the step put the new basis vector, and say what happened."""
+        state = self.state
+        if done == fused.SPARSE:
+            return Update(UpdateKind.SPARSE, novelty)
+        if done == fused.FULL:
+            state.remember(self.window, slot)
+            state.n += 1
+            return Update(UpdateKind.FIRST if state.n == 1 else UpdateKind.FULL, novelty)
         if slot == state.n:
-            return self.window.time
+            return Update(UpdateKind.FULL_THEN_DELETION, novelty, self.window.time)
         deleted = int(state.times[slot])
         state.remember(self.window, slot)
-        return deleted
+        return Update(UpdateKind.FULL_THEN_DELETION, novelty, deleted)
 
     def to_bytes(self) -> bytes:
         """Save as the bytes of one portable npz; the same bytes for the same model."""
