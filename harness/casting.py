@@ -1,0 +1,70 @@
+"""Who takes part in one session: the person, and whoever else the protocol names."""
+
+from harness.lap import Cast
+from harness.model import make_model
+from harness.plan import Plan
+from harness.seeds import stream
+from participants.cohort import Person
+from participants.cohort import draw_person as drawn_from_cohort
+from participants.registry import make_demonstrator, make_driver, make_respondent
+from participants.setup import DemonstratorSetup, DriverSetup, RespondentSetup
+from participants.survey import Question, Respondent
+from protocols.instrument import Instrument, Item
+
+
+def rehearse(plan: Plan) -> None:
+    """Make everybody of the first session once, so that a mistake shows before anything runs.
+
+    Raises
+    ------
+    InputError
+        When a driver, demonstrator, model or respondent cannot be made.
+    """
+    person = draw_person(plan, 1)
+    cast(plan, 1, person)
+    respondent(plan, 1, person)
+
+
+def draw_person(plan: Plan, number: int) -> Person:
+    """Return the person who is a synthetic participant, the same one in every run."""
+    return drawn_from_cohort(plan.study.protocol.cohort, stream(plan.seed, number, "person"))
+
+
+def cast(plan: Plan, number: int, person: Person) -> Cast:
+    """Return who is there in every lap of a participant's session."""
+    study, seed = plan.study, plan.seed
+    cohort, course = study.protocol.cohort, study.course
+    driver = DriverSetup(
+        course=course,
+        rng=stream(seed, number, "driver"),
+        traits=person.traits,
+        options=cohort.driver.options,
+    )
+    demonstrator = DemonstratorSetup(
+        course=course,
+        rng=stream(seed, number, "demonstrator"),
+        options=cohort.demonstrator.options,
+    )
+    return Cast(
+        driver=make_driver(cohort.driver.use, driver),
+        demonstrator=make_demonstrator(cohort.demonstrator.use, demonstrator),
+        model=make_model(study.protocol.model),
+    )
+
+
+def respondent(plan: Plan, number: int, person: Person) -> Respondent:
+    """Return who answers a participant's questionnaires."""
+    study = plan.study
+    asked = (pair for lap in range(len(study.protocol.laps)) for pair in study.questions(lap))
+    setup = RespondentSetup(
+        questions=tuple(dict.fromkeys(question(*pair) for pair in asked)),
+        rng=stream(plan.seed, number, "respondent"),
+        style=person.style,
+        options=study.protocol.cohort.respondent.options,
+    )
+    return make_respondent(study.protocol.cohort.respondent.use, setup)
+
+
+def question(instrument: Instrument, item: Item) -> Question:
+    """Return an item as a respondent gets to know it."""
+    return Question(instrument=instrument.name, item=item.id, points=instrument.points)

@@ -1,0 +1,39 @@
+"""`lad-study protocols`, `courses` and `show`: what is shipped, and what it says."""
+
+from typing import Annotated
+
+import typer
+
+from harness.cli.console import say
+from protocols.errors import InputError
+from protocols.load import (
+    load_course,
+    load_instrument,
+    load_protocol,
+    shipped_courses,
+    shipped_instruments,
+    shipped_protocols,
+)
+from protocols.shipped import shipped_text
+
+
+def protocols() -> None:
+    """List the shipped study protocols."""
+    for name in shipped_protocols():
+        say(f"{name:<16} {load_protocol(name).title}")
+
+
+def courses() -> None:
+    """List the shipped courses."""
+    for name in shipped_courses():
+        say(f"{name:<16} {load_course(name).title}")
+
+
+def show(
+    name: Annotated[str, typer.Argument(help="A shipped protocol, course or questionnaire.")],
+) -> None:
+    """Print a shipped file as plain YAML, to be copied and changed.
+
+    Example: lad-study show four-lap > my-study.yaml
+    """
+    typer.echo(shipped_text(name), nl=False)

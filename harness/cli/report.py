@@ -1,0 +1,25 @@
+"""`lad-study report`: from a study directory to a page. Never loads PyBullet."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from harness.cli.console import progress_line, say
+
+
+def report(
+    study: Annotated[Path, typer.Argument(metavar="DIR", help="A study directory.")],
+) -> None:
+    """Write the report of a study: one self-contained page, figures, tables and statistics.
+
+    Works on a copied study directory, also where PyBullet is not installed. An older report is
+    replaced as a whole.
+
+    Example: lad-study report studies/four-lap-seed0
+    """
+    from analysis.report import write_report  # noqa: PLC0415  # slow to import, wanted here only
+
+    with progress_line() as tell:
+        page = write_report(study, tell)
+    say(f"Report: {page}")

@@ -1,0 +1,98 @@
+"""`lad-study run`: a study from its protocol to its report."""
+
+import os
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+
+from harness.cli.console import ERR, progress_line, say
+from harness.cli.table import print_lap_times
+from harness.plan import Plan
+from harness.runner import Outcome, run_study
+from protocols.load import resolve_study
+
+
+def run(
+    protocol: Annotated[
+        str, typer.Argument(metavar="[PROTOCOL]", help="A shipped protocol's name, or a file.")
+    ] = "four-lap",
+    participants: Annotated[
+        int | None, typer.Option(min=1, max=9999, help="In place of the protocol's own number.")
+    ] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Same seed, same bytes.")] = 0,
+    out: Annotated[
+        Path | None,
+        typer.Option(help="Study directory.  [default: studies/PROTOCOL-seedSEED]"),
+    ] = None,
+    jobs: Annotated[
+        int, typer.Option(min=1, max=1024, help="Processes.", show_default="all cores")
+    ] = os.cpu_count() or 1,
+    course: Annotated[
+        str | None, typer.Option(help="Another course than the protocol's: a name or a file.")
+    ] = None,
+    retry_failed: Annotated[
+        bool, typer.Option("--retry-failed", help="Run sessions again that failed before.")
+    ] = False,
+    no_report: Annotated[bool, typer.Option("--no-report", help="Only the record.")] = False,
+) -> int:
+    """Run a study with synthetic participants, and report it.
+
+    Without arguments: the four-lap study, twelve participants, seed 0. A run that was stopped
+    goes on where it was when the same command is given again.
+
+    Example: lad-study run four-lap --participants 24 --seed 3 --out studies/pilot
+    """
+    study = resolve_study(protocol, course=course, participants=participants)
+    folder = out or Path("studies") / f"{study.protocol.name}-seed{seed}"
+    outcome = _run_with_progress(Plan(study, seed), folder, jobs, retry_failed=retry_failed)
+    if outcome.found:
+        say(f"{outcome.found} of {outcome.planned} sessions were there already.")
+    if not no_report and outcome.found + outcome.finished:
+        _report(folder)
+    say(f"Study:  {folder}")
+    if outcome.failed:
+        ERR.print(
+            f"{len(outcome.failed)} of {outcome.planned} sessions failed "
+            f"({', '.join(outcome.failed[:5])}{', ...' if len(outcome.failed) > 5 else ''}): "
+            f"see {folder / 'logs'}; --retry-failed runs them again."
+        )
+        return 1
+    return 0
+
+
+def _run_with_progress(plan: Plan, folder: Path, jobs: int, *, retry_failed: bool) -> Outcome:
+    columns = (
+        TextColumn("Sessions"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=ERR) as progress:
+        task = progress.add_task("Sessions", total=plan.study.protocol.cohort.participants)
+        return run_study(
+            plan,
+            folder,
+            jobs,
+            lambda ended, planned: progress.update(task, completed=ended, total=planned),
+            retry_failed=retry_failed,
+        )
+
+
+def _report(folder: Path) -> None:
+    from analysis.report import write_report  # noqa: PLC0415  # slow to import, wanted here only
+
+    with progress_line() as tell:
+        page = write_report(folder, tell)
+    print_lap_times(folder)
+    say(f"Report: {page}")

@@ -1,0 +1,31 @@
+"""`lad-study validate`: is this file right?"""
+
+from typing import Annotated
+
+import typer
+
+from harness.cli.console import say
+from protocols.load import check_file
+from protocols.resolved import ResolvedStudy
+
+
+def validate(
+    file: Annotated[
+        str, typer.Argument(metavar="FILE", help="A protocol, course or instrument file.")
+    ],
+) -> None:
+    """Check a protocol, course or questionnaire without running anything.
+
+    A fault is one line with file, line, field and what is allowed, and exit code 2.
+
+    Example: lad-study validate my-study.yaml
+    """
+    checked = check_file(file)
+    if isinstance(checked, ResolvedStudy):
+        protocol = checked.protocol
+        say(
+            f"{file}: a protocol: {protocol.cohort.participants} participants, "
+            f"{len(protocol.laps)} laps on {checked.course.name}"
+        )
+    else:
+        say(f"{file}: a {type(checked).__name__.lower()}: {checked.title}")

@@ -1,0 +1,48 @@
+"""The learning assistant a protocol names, and what of it goes into the record."""
+
+from importlib import import_module
+from typing import Any
+
+from lad.assistant import Assistant
+from lad.lad_assistant import LADAssistant
+from protocols.errors import InputError
+from protocols.study import ModelChoice
+
+
+def make_model(choice: ModelChoice) -> Assistant:
+    """Return the assistant that learns in a study.
+
+    Somebody else's is named by a dotted path ``package.module:factory``; the factory takes the
+    protocol's options as keyword arguments.
+
+    Raises
+    ------
+    InputError
+        When it cannot be imported, does not take the options, or is no assistant.
+    """
+    if choice.use == "lad":
+        return LADAssistant(choice.parameters)
+    module, _, name = choice.use.partition(":")
+    try:
+        made = getattr(import_module(module), name)(**choice.options)
+    except Exception as error:  # somebody's code may fail in any way
+        reason = f"{type(error).__name__}: {error}"
+        raise InputError(f"model {choice.use!r}: cannot be made ({reason})") from error
+    missing = [m for m in ("start_lap", "assist") if not callable(getattr(made, m, None))]
+    if missing:
+        raise InputError(f"model {choice.use!r}: is no assistant, it lacks {', '.join(missing)}")
+    assistant: Assistant = made
+    return assistant
+
+
+def saved(model: Assistant) -> bytes | None:
+    """Return a model's portable bytes; None for one that cannot be saved."""
+    to_bytes = getattr(model, "to_bytes", None)
+    return to_bytes() if callable(to_bytes) else None
+
+
+def basis_vectors(model: Assistant) -> dict[str, Any]:
+    """Return the lap row's fields about the model's size; empty for a model without any."""
+    if not isinstance(model, LADAssistant):
+        return {}
+    return {"basis_vectors_when": model.when.n_basis, "basis_vectors_how": model.how.n_basis}
