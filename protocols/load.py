@@ -98,7 +98,7 @@ def resolve_study(
     faults = [*_survey_faults(protocol, instruments), *_outcome_faults(protocol, instruments)]
     if faults:
         raise document.error(faults)
-    return _resolved(protocol, chosen, instruments, participants)
+    return _resolved(protocol, chosen, instruments, participants, source.folder)
 
 
 def check_file(name_or_path: str) -> ResolvedStudy | Course | Instrument:
@@ -217,6 +217,7 @@ def _resolved(
     course: Course,
     instruments: dict[str, Instrument],
     participants: int | None,
+    folder: Path | None,
 ) -> ResolvedStudy:
     def named(lap: PlannedLap, survey: SurveyPlan) -> SurveyPlan:
         instrument = instruments[survey.instrument]
@@ -231,4 +232,6 @@ def _resolved(
     if participants is not None:
         cohort = cohort.model_copy(update={"participants": participants})
     changes = {"course": course.name, "laps": laps, "cohort": cohort}
-    return ResolvedStudy(protocol.model_copy(update=changes), course, tuple(instruments.values()))
+    return ResolvedStudy(
+        protocol.model_copy(update=changes), course, tuple(instruments.values()), folder
+    )

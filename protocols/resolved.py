@@ -1,6 +1,7 @@
 """A study with everything it refers to: nothing left to look up."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from pathlib import Path
 
 from protocols.course.schema import Course
 from protocols.instrument import Instrument, Item
@@ -19,11 +20,15 @@ class ResolvedStudy:
         The course of that name.
     instruments
         The instruments asked after any lap, in the order of their first use.
+    folder
+        Where relative paths in the components' options start; None for a shipped protocol. Not
+        part of what the study is.
     """
 
     protocol: StudyProtocol
     course: Course
     instruments: tuple[Instrument, ...]
+    folder: Path | None = field(default=None, compare=False)
 
     def instrument(self, name: str) -> Instrument:
         """Return the instrument of this name; ``KeyError`` when the study asks no such one."""

@@ -18,11 +18,13 @@ PARTICIPANTS_TABLE = "participants.parquet"
 LAPS_TABLE = "laps.parquet"
 SURVEYS_TABLE = "surveys.parquet"
 
-_TABLES = (
+STUDY_TABLES = (
     (PARTICIPANTS_TABLE, PARTICIPANT_FILE, PARTICIPANT_SCHEMA),
     (LAPS_TABLE, LAPS_FILE, LAP_SCHEMA),
     (SURVEYS_TABLE, SURVEYS_FILE, SURVEY_SCHEMA),
 )
+"""Name of each table, of the file in a session that its rows come from, and its schema."""
+
 _SESSIONS_PER_ROW_GROUP = 500
 
 
@@ -38,7 +40,7 @@ def build_tables(folder: Path) -> None:
         When a session's file cannot be read; names it. The old tables are still there then.
     """
     participants = finished_sessions(folder)
-    for table, part, schema in _TABLES:
+    for table, part, schema in STUDY_TABLES:
         _build(folder, table, part, schema, participants)
 
 
@@ -65,11 +67,12 @@ def _row_groups(
 ) -> Iterator[pa.Table]:
     for start in range(0, len(participants), _SESSIONS_PER_ROW_GROUP):
         names = participants[start : start + _SESSIONS_PER_ROW_GROUP]
-        tables = [_rows(sessions / name / part, schema) for name in names]
+        tables = [session_rows(sessions / name / part, schema) for name in names]
         yield pa.concat_tables(tables).combine_chunks()
 
 
-def _rows(path: Path, schema: pa.Schema) -> pa.Table:
+def session_rows(path: Path, schema: pa.Schema) -> pa.Table:
+    """Return a session's table; ``InputError`` when it cannot be read or has other columns."""
     table = read_parquet(path)
     if not table.schema.equals(schema):
         raise InputError(f"{path}: its columns are not those of this version's record")

@@ -1,0 +1,45 @@
+"""The JSON Schemas of the files people write, for editors and other programs.
+
+``python -m protocols.json_schema docs/schema`` writes the published files again.
+"""
+
+import json
+import sys
+from pathlib import Path
+
+from pydantic import BaseModel
+
+from protocols.course.schema import Course
+from protocols.instrument import Instrument
+from protocols.study import StudyProtocol
+
+_DIALECT = "https://json-schema.org/draft/2020-12/schema"
+_MODELS: dict[str, type[BaseModel]] = {
+    "protocol.json": StudyProtocol,
+    "course.json": Course,
+    "instrument.json": Instrument,
+}
+
+
+def json_schemas() -> dict[str, str]:
+    """Return the text of every published schema by file name.
+
+    They say what a file may contain field by field; that its parts agree with one another is
+    checked by ``lad-study validate`` only.
+    """
+    return {name: _text(model) for name, model in _MODELS.items()}
+
+
+def _text(model: type[BaseModel]) -> str:
+    schema = {"$schema": _DIALECT, **model.model_json_schema(by_alias=True)}
+    return json.dumps(schema, indent=2, ensure_ascii=False) + "\n"
+
+
+def write_json_schemas(folder: Path) -> None:
+    """Write every published schema into a folder that exists."""
+    for name, text in json_schemas().items():
+        (folder / name).write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    write_json_schemas(Path(sys.argv[1]))
