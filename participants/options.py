@@ -1,0 +1,52 @@
+"""Options of drivers and demonstrators, as a protocol file gives them."""
+
+from collections.abc import Mapping
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from protocols.errors import InputError
+
+
+class Options(BaseModel):
+    """What a component may be told; a subclass names each option, its type and its range."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class NoOptions(Options):
+    """A component that cannot be told anything."""
+
+
+Given = TypeVar("Given", bound=Options)
+
+
+def read_options(who: str, kind: type[Given], given: Mapping[str, Any]) -> Given:
+    """Return checked options.
+
+    Parameters
+    ----------
+    who
+        Whose options they are, for the message, e.g. ``"driver 'human'"``.
+    kind
+        What is allowed.
+    given
+        What the protocol says.
+
+    Raises
+    ------
+    InputError
+        In one line for each fault, what was given and what is allowed.
+    """
+    try:
+        return kind.model_validate(dict(given))
+    except ValidationError as error:
+        raise InputError(*(_fault(who, kind, item) for item in error.errors())) from None
+
+
+def _fault(who: str, kind: type[Options], item: Any) -> str:
+    where = ".".join(str(part) for part in item["loc"])
+    if item["type"] == "extra_forbidden":
+        allowed = ", ".join(kind.model_fields) or "it takes no options"
+        return f"{who}: option {where!r} does not exist; allowed: {allowed}"
+    return f"{who}: option {where!r}: {item['msg']} (given {item['input']!r})"

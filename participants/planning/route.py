@@ -1,0 +1,182 @@
+"""A smooth way through a course by arc length: where to go, and how sharply it bends."""
+
+import math
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from participants.planning.search import cheapest_path
+from protocols.course.centreline import Centreline
+from protocols.course.gates import GateCounter
+from protocols.course.occupancy import occupancy
+from protocols.course.schema import Course
+from protocols.errors import InputError
+from protocols.pose import Pose
+
+SPACING = 0.05
+"""Distance between a route's points, m."""
+
+SMOOTHING = 0.2
+"""Standard deviation of the Gaussian that smooths a path, m."""
+
+RUN_OUT = 1.0
+"""How far a route goes on straight past the last gate, m."""
+
+
+class Progress(NamedTuple):
+    """Where one is on a route: arc length in m, and distance from it in m, left positive."""
+
+    arc: float
+    offset: float
+
+
+class Route:
+    """A way by arc length.
+
+    Parameters
+    ----------
+    points
+        Shape (n, 2): its points about ``SPACING`` apart, m.
+    gate_arcs
+        Arc length at which each gate is passed, m.
+    """
+
+    def __init__(self, points: NDArray[np.float64], gate_arcs: tuple[float, ...]) -> None:
+        self.points = points
+        self.gate_arcs = gate_arcs
+        steps = np.hypot(*np.diff(points, axis=0).T)
+        self.arcs = np.concatenate([[0.0], np.cumsum(steps)])
+        self.length = float(self.arcs[-1])
+        tangents = np.gradient(points, axis=0)
+        self.headings = np.unwrap(np.arctan2(tangents[:, 1], tangents[:, 0]))
+
+    def locate(self, pose: Pose, gates_passed: int, near: float | None = None) -> Progress:
+        """Return the nearest point between the gates one is between.
+
+        Parameters
+        ----------
+        pose
+            Where one is.
+        gates_passed
+            How many gates lie behind; the answer is never past the next one.
+        near
+            Arc length a moment ago, m: the answer is then within 1 m of it, unless everything
+            there is farther away than 1 m.
+        """
+        low, high = self._leg(gates_passed)
+        if near is not None:
+            close = self._nearest(pose, max(low, near - 1.0), min(high, near + 1.0))
+            if close is not None and abs(close.offset) < 1.0:
+                return close
+        found = self._nearest(pose, low, high)
+        return found if found is not None else Progress(high, 0.0)
+
+    def point(self, arc: float) -> Pose:
+        """Return the point at an arc length, clamped to the ends, and the direction there."""
+        return Pose(
+            float(np.interp(arc, self.arcs, self.points[:, 0])),
+            float(np.interp(arc, self.arcs, self.points[:, 1])),
+            float(np.interp(arc, self.arcs, self.headings)),
+        )
+
+    def turn(self, start: float, end: float) -> float:
+        """Return by how much the direction changes between two arc lengths, rad, left positive."""
+        a, b = np.interp([start, end], self.arcs, self.headings)
+        return float(b - a)
+
+    def _leg(self, gates_passed: int) -> tuple[float, float]:
+        ends = (0.0, *self.gate_arcs)
+        low = ends[min(gates_passed, len(ends) - 1)]
+        high = ends[gates_passed + 1] if gates_passed + 1 < len(ends) else self.length
+        return low, high
+
+    def _nearest(self, pose: Pose, low: float, high: float) -> Progress | None:
+        first, last = np.searchsorted(self.arcs, [low - SPACING, high + SPACING])
+        if first >= last:
+            return None
+        dx, dy = (np.array(pose[:2]) - self.points[first:last]).T
+        i = int(np.argmin(dx * dx + dy * dy))
+        heading = self.headings[first + i]
+        along = dx[i] * math.cos(heading) + dy[i] * math.sin(heading)
+        across = dy[i] * math.cos(heading) - dx[i] * math.sin(heading)
+        arc = float(np.clip(self.arcs[first + i] + np.clip(along, -SPACING, SPACING), low, high))
+        return Progress(arc, math.copysign(math.hypot(dx[i], dy[i]), across))
+
+
+@lru_cache(maxsize=16)
+def plan(course: Course, cell: float = 0.1) -> Route:
+    """Plan a way through a course, once for each course.
+
+    Parameters
+    ----------
+    course
+        The course.
+    cell
+        Edge length of the raster's cells, m.
+
+    Raises
+    ------
+    InputError
+        When no path leads the chair through all gates.
+    """
+    path = _run_out(_from_start(course, cheapest_path(course, occupancy(course, cell))))
+    for points in (_smooth(path), _resampled(path)):
+        arcs = gate_arcs(course, points)
+        if len(arcs) == len(course.gates):
+            return Route(points, arcs)
+    raise InputError(f"course {course.name!r}: the way found misses one of the gates")
+
+
+def centreline_route(course: Course) -> Route:
+    """Return the course's centreline as a route, with its corners as they are drawn."""
+    line = Centreline(course)
+    points = _resampled(_run_out(line.points))
+    return Route(points, gate_arcs(course, points))
+
+
+def _run_out(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Go on past the end, in the direction of the last half metre."""
+    distances = np.hypot(*(points - points[-1]).T)
+    before = points[np.flatnonzero(distances >= min(0.5, distances.max()))[-1]]
+    direction = (points[-1] - before) / np.hypot(*(points[-1] - before))
+    return np.vstack([points, points[-1] + RUN_OUT * direction])
+
+
+def _resampled(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    steps = np.hypot(*np.diff(points, axis=0).T)
+    arcs = np.concatenate([[0.0], np.cumsum(steps)])
+    samples = np.linspace(0.0, arcs[-1], math.ceil(arcs[-1] / SPACING) + 1)
+    return np.column_stack([np.interp(samples, arcs, points[:, i]) for i in (0, 1)])
+
+
+def _smooth(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Round off the raster's corners; the ends stay where they are."""
+    even = _resampled(points)
+    # Mirroring a curve in its end point keeps the end in place.
+    width = min(len(even) - 1, math.ceil(4 * SMOOTHING / SPACING))
+    before = 2 * even[0] - even[width:0:-1]
+    after = 2 * even[-1] - even[-2 : -2 - width : -1]
+    padded = np.vstack([before, even, after])
+    smooth = ndimage.gaussian_filter1d(padded, SMOOTHING / SPACING, axis=0)
+    return _resampled(smooth[width : width + len(even)])
+
+
+def _from_start(course: Course, cells: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.vstack([[course.start.x, course.start.y], cells[1:]])
+
+
+def gate_arcs(course: Course, points: NDArray[np.float64]) -> tuple[float, ...]:
+    """Return the arc length at which each gate is passed, m; fewer when one is missed."""
+    steps = np.hypot(*np.diff(points, axis=0).T)
+    starts = np.concatenate([[0.0], np.cumsum(steps)])
+    counter, arcs = GateCounter(course), []
+    for a, b, start, step in zip(points[:-1], points[1:], starts, steps, strict=False):
+        before = counter.passed
+        share = counter.advance((a[0], a[1]), (b[0], b[1]))
+        arcs += [float(start + (share or 0.0) * step)] * (counter.passed - before)
+        if counter.finished:
+            break
+    return tuple(arcs)
