@@ -1,0 +1,90 @@
+"""Participants flow: planned, recorded, excluded and why, analysed. The arithmetic adds up."""
+
+from dataclasses import dataclass
+
+import pandas as pd
+
+from analysis.frames import StudyFrames, excluded, refused
+
+
+@dataclass(frozen=True, slots=True)
+class Flow:
+    """How many people there were at each stage.
+
+    Attributes
+    ----------
+    planned
+        As the protocol says, or as many as were recorded if that is more.
+    not_run, failed
+        Planned sessions that were not begun, and sessions that broke off with an error.
+    recorded
+        Sessions with a record.
+    refused
+        Recorded participants without consent.
+    excluded
+        Recorded participants with consent whom a rule excludes, by reason.
+    analysed
+        The rest.
+    completed
+        Of these, who finished every analysed lap.
+    laps
+        One row per condition: laps planned, not driven, unfinished by reason, finished.
+    """
+
+    planned: int
+    not_run: int
+    failed: int
+    recorded: int
+    refused: int
+    excluded: dict[str, int]
+    analysed: int
+    completed: int
+    laps: pd.DataFrame
+
+
+def participants_flow(frames: StudyFrames) -> Flow:
+    """Count everybody, at every stage."""
+    people = frames.everybody
+    no = refused(people)
+    out = excluded(people) & ~no
+    reasons = people.loc[out, "exclusion_reason"].fillna("no reason recorded").value_counts()
+    recorded, failed = len(people), len(frames.study.failed())
+    planned = max(frames.study.protocol.cohort.participants, recorded + failed)
+    finished = frames.laps.groupby("participant")["completed"].sum()
+    wanted = sum(not lap.practice for lap in frames.study.protocol.laps)
+    return Flow(
+        planned=planned,
+        not_run=planned - recorded - failed,
+        failed=failed,
+        recorded=recorded,
+        refused=int(no.sum()),
+        excluded={str(reason): int(n) for reason, n in sorted(reasons.items())},
+        analysed=len(frames.participants),
+        completed=int((finished >= wanted).sum()),
+        laps=lap_flow(frames),
+    )
+
+
+def lap_flow(frames: StudyFrames) -> pd.DataFrame:
+    """Return one row per condition: laps planned = finished + unfinished + not driven."""
+    planned = pd.Series(
+        [lap.condition for lap in frames.study.protocol.laps if not lap.practice]
+    ).value_counts()
+    rows = []
+    for condition in frames.conditions:
+        laps = frames.laps[frames.laps["condition"] == condition]
+        unfinished = laps[~laps["completed"].astype(bool)]
+        reasons = unfinished["end_reason"].fillna("no reason recorded")
+        expected = max(int(planned.get(condition, 0)) * len(frames.participants), len(laps))
+        rows.append(
+            {
+                "condition": condition,
+                "planned": expected,
+                "finished": len(laps) - len(unfinished),
+                "time_limit": int((reasons == "time_limit").sum()),
+                "withdrew": int((reasons == "withdrew").sum()),
+                "unfinished_otherwise": int((~reasons.isin(["time_limit", "withdrew"])).sum()),
+                "not_driven": expected - len(laps),
+            }
+        )
+    return pd.DataFrame(rows)

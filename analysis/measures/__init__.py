@@ -1,0 +1,1 @@
+"""Measures of one lap: its steps in, one number out, one file each."""

@@ -1,0 +1,58 @@
+"""What part each condition plays in a study: full control, limited, or helped, and by whom."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from protocols.study import StudyProtocol
+
+Role = Literal["baseline", "limited", "demonstrator", "model"]
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A condition and its part.
+
+    Attributes
+    ----------
+    condition
+        Name of the condition.
+    role
+        Full control without help; limited without help; helped by a demonstrator or the model.
+    demonstrations
+        Training laps driven before the condition's first lap.
+    """
+
+    condition: str
+    role: Role
+    demonstrations: int
+
+
+def cast(protocol: StudyProtocol) -> tuple[Part, ...]:
+    """Return the analysed conditions with their parts, in the order of their first lap.
+
+    Examples
+    --------
+    >>> from protocols.load import load_protocol
+    >>> [part.role for part in cast(load_protocol("four-lap"))]
+    ['baseline', 'limited', 'demonstrator', 'model']
+    """
+    parts: dict[str, Part] = {}
+    demonstrations = 0
+    for lap in protocol.laps:
+        condition = protocol.conditions[lap.condition]
+        if not lap.practice and lap.condition not in parts:
+            alone: Role = "limited" if condition.limitation else "baseline"
+            role = alone if condition.assistant == "none" else condition.assistant
+            parts[lap.condition] = Part(lap.condition, role, demonstrations)
+        demonstrations += condition.training
+    return tuple(parts.values())
+
+
+def first(parts: tuple[Part, ...], role: Role) -> str | None:
+    """Return the first condition that plays a part; None when none does."""
+    return next((part.condition for part in parts if part.role == role), None)
+
+
+def yardstick(parts: tuple[Part, ...]) -> str | None:
+    """Return the condition that speedups are measured from: limited, else the baseline."""
+    return first(parts, "limited") or first(parts, "baseline")

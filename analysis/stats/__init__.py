@@ -1,0 +1,1 @@
+"""Tests and estimates: arrays in, one ``TestResult`` out."""

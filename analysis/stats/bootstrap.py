@@ -1,0 +1,59 @@
+"""Bootstrap intervals over participants."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+RESAMPLES = 4999
+FEWEST = 6
+"""Below this many participants a bootstrap interval promises more than it can keep."""
+
+Statistic = Callable[..., NDArray[np.float64]]
+
+
+def bca_interval(
+    samples: tuple[NDArray[np.float64], ...],
+    statistic: Statistic,
+    rng: np.random.Generator,
+    level: float = 0.95,
+) -> tuple[float, float]:
+    """Return the bias-corrected and accelerated bootstrap interval of a statistic.
+
+    Parameters
+    ----------
+    samples
+        One or more arrays of equal length; entry i of each belongs to participant i, and
+        participants are resampled whole.
+    statistic
+        Of ``*samples`` and ``axis``; vectorised.
+    rng
+        Where the resamples come from.
+    level
+        Confidence level.
+
+    Returns
+    -------
+    tuple[float, float]
+        NaN, NaN with fewer than six participants or a statistic that does not vary.
+
+    References
+    ----------
+    Efron (1987), JASA 82(397), 171-185.
+    """
+    if len(samples[0]) < FEWEST or all(np.ptp(sample) == 0 for sample in samples):
+        return math.nan, math.nan
+    interval = stats.bootstrap(
+        samples,
+        statistic,
+        paired=len(samples) > 1,
+        vectorized=True,
+        n_resamples=RESAMPLES,
+        batch=500,
+        confidence_level=level,
+        method="BCa",
+        rng=rng,
+    ).confidence_interval
+    return float(interval.low), float(interval.high)
