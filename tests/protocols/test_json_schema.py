@@ -12,7 +12,7 @@ _PUBLISHED = Path(__file__).parents[2] / "docs" / "schema"
 
 @pytest.mark.parametrize("name", json_schemas())
 def test_the_published_schema_is_current(name: str):
-    """What docs/schema holds is what the models say; `python -m protocols.json_schema` renews it."""
+    """The files hold what the models say; `python -m protocols.json_schema` renews it."""
     assert (_PUBLISHED / name).read_text(encoding="utf-8") == json_schemas()[name]
 
 
