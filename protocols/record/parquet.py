@@ -15,6 +15,7 @@ PARQUET_SETTINGS: dict[str, Any] = {
     "compression_level": 3,
     "version": "2.6",
     "data_page_version": "1.0",
+    "write_page_checksum": True,
 }
 """Everything that changes the bytes is said, so that no default can change them."""
 
@@ -42,12 +43,12 @@ def read_parquet(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
         When the file is missing or damaged; names it.
     """
     try:
-        with pq.ParquetFile(path) as file:
+        with pq.ParquetFile(path, page_checksum_verification=True) as file:
             there = file.schema_arrow.names
             wanted = None if columns is None else [c for c in columns if c in there]
             return file.read(columns=wanted)
     except FileNotFoundError:
         raise InputError(f"{path}: no such file") from None
-    except (pa.ArrowException, OSError) as error:
+    except (pa.ArrowException, OSError, ValueError, MemoryError) as error:
         reason = str(error).partition("\n")[0]
         raise InputError(f"{path}: not a readable Parquet file: {reason}") from None

@@ -1,0 +1,90 @@
+"""Verifying a study directory."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from protocols.load import resolve_study
+from protocols.record.check import check_study
+from protocols.record.session import SessionRecord, encode
+from protocols.record.store import build_tables, open_folder, write_session
+
+
+def test_a_finished_study_has_no_faults(folder: Path):
+    """What our own writer made passes."""
+    assert check_study(folder) == ()
+
+
+@pytest.mark.parametrize(
+    "name", ["steps-0.parquet", "lap_rows.parquet", "model.npz", "manifest.json"]
+)
+def test_a_damaged_session_file_is_named(folder: Path, name: str):
+    """A changed byte in any file of a session is found, and what to do is said."""
+    path = folder / "sessions" / "P0002" / name
+    content = bytearray(path.read_bytes())
+    content[len(content) // 2] ^= 1
+    path.write_bytes(content)
+    faults = check_study(folder)
+    assert any(str(path.parent) in f and "remove" in f for f in faults)
+
+
+def test_missing_sessions_are_counted(folder: Path):
+    """A study that is not finished says how many sessions it lacks."""
+    open_folder(folder, resolve_study("four-lap", participants=10), 0)
+    (fault,) = check_study(folder)
+    assert fault.startswith("7 of 10 sessions are missing (P0004 first)")
+
+
+def test_tables_that_do_not_hold_the_sessions_are_named(
+    folder: Path, make_session: Callable[..., SessionRecord]
+):
+    """A session added after the tables were built makes all three of them stale."""
+    open_folder(folder, resolve_study("four-lap", participants=4), 0)
+    write_session(folder, "P0004", encode(make_session(4)))
+    names = [fault.partition(":")[0] for fault in check_study(folder)]
+    assert names == [str(folder / f"{t}.parquet") for t in ("participants", "laps", "surveys")]
+    build_tables(folder)
+    assert check_study(folder) == ()
+
+
+def test_an_unreadable_table_is_named(folder: Path):
+    """A truncated table is told as such."""
+    (folder / "laps.parquet").write_bytes(b"PAR1")
+    (fault,) = check_study(folder)
+    assert fault.startswith(f"{folder / 'laps.parquet'}: not a readable Parquet file")
+
+
+def test_rows_that_contradict_one_another_are_told(
+    tmp_path: Path, make_session: Callable[..., SessionRecord]
+):
+    """Counts in rows that differ from what is there, and rows of somebody else, are faults."""
+    session = make_session(1)
+    wrong_steps = replace(session.laps[0], row=replace(session.laps[0].row, steps=6))
+    cases = {
+        "steps-0.parquet: 5 steps; the lap's row says 6": replace(
+            session, laps=(wrong_steps, session.laps[1])),
+        "lap_rows.parquet: 2 laps; the participant's row says [3]": replace(
+            session, participant=replace(session.participant, laps_driven=3)),
+        "rows of P0002 in the session of P0001": replace(
+            session, participant=replace(session.participant, participant="P0002")),
+    }  # fmt: skip
+    for n, (message, bad) in enumerate(cases.items()):
+        out = tmp_path / str(n)
+        open_folder(out, resolve_study("four-lap", participants=1), 0)
+        write_session(out, "P0001", encode(bad))
+        build_tables(out)
+        faults = check_study(out)
+        assert len(faults) == 1
+        assert message in faults[0]
+
+
+def test_a_changed_head_or_codebook_is_told(folder: Path):
+    """A study.yaml edited after the run, and a lost codebook, are faults."""
+    path = folder / "study.yaml"
+    path.write_text(path.read_text().replace("right_turn_rad_s: 0.15", "right_turn_rad_s: 0.25"))
+    (folder / "codebook.json").unlink()
+    head, book = check_study(folder)
+    assert "was changed after the run" in head
+    assert "codebook.json: missing" in book

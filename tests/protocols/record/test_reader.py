@@ -1,0 +1,140 @@
+"""Reading a study directory."""
+
+import shutil
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from protocols.dump import plain_yaml
+from protocols.errors import InputError
+from protocols.record.reader import open_study
+from protocols.record.store import open_folder, write_failure
+from protocols.resolved import ResolvedStudy
+
+
+def _refused(folder: Path | str) -> str:
+    with pytest.raises(InputError) as caught:
+        open_study(folder)
+    return str(caught.value)
+
+
+def test_a_study_is_read_back(folder: Path, plan: ResolvedStudy):
+    """Protocol, course, seed, tables, steps and models are those that were written."""
+    study = open_study(folder)
+    assert (study.protocol, study.course, study.instruments) == (
+        plan.protocol, plan.course, plan.instruments)  # fmt: skip
+    assert study.seed == 0
+    assert study.sessions() == ("P0001", "P0002", "P0003")
+    assert study.participants.num_rows == 3
+    assert study.laps.num_rows == study.surveys.num_rows == 6
+    assert study.steps("P0002", 1)["step"].to_pylist() == [0, 1, 2, 3, 4]
+    assert study.model_bytes("P0001") == b"learnt"
+    assert len(study.versions()) == 1
+
+
+def test_single_columns_can_be_read(folder: Path):
+    """Only what was asked for comes, in that order."""
+    steps = open_study(folder).steps("P0001", 0, ["clearance_m", "t_s"])
+    assert steps.column_names == ["clearance_m", "t_s"]
+
+
+def test_a_copy_elsewhere_reads_the_same(folder: Path, tmp_path: Path):
+    """A study directory is self-contained: no path in it leads outside."""
+    copy = tmp_path / "elsewhere" / "copy"
+    shutil.copytree(folder, copy)
+    shutil.rmtree(folder)
+    assert open_study(copy).laps.num_rows == 6
+
+
+def test_unfinished_rubbish_is_never_read(folder: Path):
+    """What a killed run left behind is no session."""
+    (folder / "sessions" / ".partial-P0004-77").mkdir()
+    assert open_study(folder).sessions() == ("P0001", "P0002", "P0003")
+
+
+def test_what_is_no_study_is_told(tmp_path: Path, plan: ResolvedStudy):
+    """Nowhere, a file, some folder, and a study before its first session, in one line each."""
+    assert _refused(tmp_path / "nowhere") == f"{tmp_path / 'nowhere'}: no such folder"
+    (tmp_path / "file").write_text("x")
+    assert "is a file, not a study directory" in _refused(tmp_path / "file")
+    assert "not a study directory; there is no study.yaml" in _refused(tmp_path)
+    open_folder(tmp_path / "new", plan, 0)
+    assert "no session in it yet" in _refused(tmp_path / "new")
+
+
+def test_participants_and_laps_that_do_not_exist_are_told_with_those_that_do(folder: Path):
+    """An unknown participant or lap is refused; so is a way out of the directory."""
+    study = open_study(folder)
+    for participant in ("P0009", "../sessions/P0001", ""):
+        with pytest.raises(InputError, match="allowed: P0001, P0002, P0003"):
+            study.steps(participant, 0)
+    for lap in (2, -1):
+        with pytest.raises(InputError, match=f"P0001 has no lap {lap}; allowed: 0, 1"):
+            study.steps("P0001", lap)
+    assert study.has_steps("P0001", 1)
+    assert not study.has_steps("P0001", 2)
+
+
+@pytest.mark.parametrize("name", ["participants.parquet", "laps.parquet", "surveys.parquet"])
+def test_a_corrupt_table_is_named(folder: Path, name: str):
+    """A truncated table is refused when the study is opened, by its name."""
+    path = folder / name
+    path.write_bytes(path.read_bytes()[:-20])
+    assert _refused(folder).startswith(f"{path}: not a readable Parquet file")
+
+
+def test_corrupt_steps_are_named(folder: Path):
+    """A truncated step table is refused when it is read."""
+    path = folder / "sessions" / "P0001" / "steps-0.parquet"
+    path.write_bytes(b"PAR1")
+    with pytest.raises(InputError, match=r"P0001/steps-0.parquet: not a readable Parquet file"):
+        open_study(folder).steps("P0001", 0)
+
+
+def test_a_missing_table_says_how_to_finish(folder: Path):
+    """A run that was killed before its tables were built says what to do."""
+    (folder / "laps.parquet").unlink()
+    assert "laps.parquet: no such file; the same `lad-study run` again" in _refused(folder)
+
+
+def test_another_schema_version_is_refused(folder: Path):
+    """A study of a later version is not misread."""
+    path = folder / "study.yaml"
+    path.write_text(path.read_text().replace("schema: 1", "schema: 9", 1))
+    assert _refused(folder) == f"{path}:1: schema: 9 is not allowed here; allowed: 1"
+
+
+def test_failed_sessions_are_those_still_missing(folder: Path):
+    """A session that failed and was run again is not failed any more."""
+    for name in ("P0002", "P0007"):
+        write_failure(folder, name, "Traceback")
+    assert open_study(folder).failed() == ("P0007",)
+
+
+def test_a_study_recorded_elsewhere_is_read(tmp_path: Path, plan: ResolvedStudy):
+    """A hand-made directory: a short study.yaml, two tables from pandas, one lap's steps."""
+    head = {
+        "protocol": {
+            "name": "ward", "title": "On a ward", "conditions": {"with": {}, "without": {}},
+            "laps": [{"condition": "without"}, {"condition": "with"}],
+        },
+        "course": plan.course.model_dump(mode="json", by_alias=True),
+    }  # fmt: skip
+    (tmp_path / "study.yaml").write_text(plain_yaml(head))
+    pd.DataFrame({"participant": ["Ann", "Bea"]}).to_parquet(tmp_path / "participants.parquet")
+    laps = pd.DataFrame(
+        {"participant": ["Ann", "Ann", "Bea"], "lap": [0, 1, 0], "completed": True,
+         "condition": ["without", "with", "without"], "lap_time_s": [50.0, 45.0, 60.0]}
+    )  # fmt: skip
+    laps.to_parquet(tmp_path / "laps.parquet")
+    (tmp_path / "sessions" / "Ann").mkdir(parents=True)
+    steps = pd.DataFrame({"t_s": [0.0, 0.1], "x_m": [1.0, 1.1], "y_m": [2.0, 2.0]})
+    steps.to_parquet(tmp_path / "sessions" / "Ann" / "steps-1.parquet")
+    study = open_study(tmp_path)
+    assert study.seed is None
+    assert study.laps["lap_time_s"].to_pylist() == [50, 45, 60]
+    assert study.surveys.num_rows == 0
+    assert study.steps("Ann", 1)["x_m"].to_pylist() == [1.0, 1.1]
+    assert study.steps("Ann", 1)["control"].null_count == 2
+    assert not study.has_steps("Bea", 0)
