@@ -138,7 +138,8 @@ class Lap:
         """
         seen, rules, cast = self._seen, self._rules, self._cast
         sight = self._sight(seen)
-        self._intent = cast.driver.act(sight) or self._intent
+        answer = cast.driver.act(sight)
+        self._intent = self._intent if answer is None else answer
         limited = rules.limitation(self._intent)
         x = as_inputs(limited, seen.velocity, seen.segments)
         demonstrator = _ask(cast.demonstrator, sight, x)

@@ -56,7 +56,7 @@ class LapLog:
             offset_m=offset,
             section=section.name,
             section_kind=section.kind,
-            clearance_m=seen.clearance,
+            clearance_m=seen.clearance_m,
             contact=step.result.contact,
         )
 

@@ -2,7 +2,7 @@
 
 import os
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.progress import (
@@ -17,8 +17,10 @@ from rich.progress import (
 from harness.cli.console import ERR, progress_line, say
 from harness.cli.table import print_lap_times
 from harness.plan import Plan
-from harness.runner import Outcome, run_study
 from protocols.load import resolve_study
+
+if TYPE_CHECKING:  # at run time, only a run may load PyBullet
+    from harness.runner import Outcome
 
 
 def run(
@@ -53,7 +55,7 @@ def run(
     """
     study = resolve_study(protocol, course=course, participants=participants)
     folder = out or Path("studies") / f"{study.protocol.name}-seed{seed}"
-    outcome = _run_with_progress(Plan(study, seed), folder, jobs, retry_failed=retry_failed)
+    outcome = _run_with_progress(Plan(study, seed), folder, jobs, retry_failed)
     if outcome.found:
         say(f"{outcome.found} of {outcome.planned} sessions were there already.")
     if not no_report and outcome.found + outcome.finished:
@@ -69,7 +71,9 @@ def run(
     return 0
 
 
-def _run_with_progress(plan: Plan, folder: Path, jobs: int, *, retry_failed: bool) -> Outcome:
+def _run_with_progress(plan: Plan, folder: Path, jobs: int, retry_failed: bool) -> "Outcome":
+    from harness.runner import run_study  # noqa: PLC0415  # loads PyBullet
+
     columns = (
         TextColumn("Sessions"),
         BarColumn(),
