@@ -1,0 +1,74 @@
+"""The chair's velocity controller: it goes for the command as fast as it is allowed to."""
+
+import math
+
+from lad.command import STILL, Command
+from protocols.wheelchair import ACCELERATION, MAX_SPEED, MAX_TURN_RATE, TURN_ACCELERATION
+
+
+def within_limits(command: Command) -> Command:
+    """Return the nearest command the chair accepts.
+
+    Raises
+    ------
+    ValueError
+        When the command is not finite.
+
+    Examples
+    --------
+    >>> within_limits(Command(0.9, -0.2))
+    Command(v=0.7, w=-0.2)
+    """
+    if not (math.isfinite(command.v) and math.isfinite(command.w)):
+        raise ValueError(f"a command must be finite; got v={command.v}, w={command.w}")
+    v = min(max(command.v, -MAX_SPEED), MAX_SPEED)
+    w = min(max(command.w, -MAX_TURN_RATE), MAX_TURN_RATE)
+    return Command(v, w)
+
+
+def approached(velocity: Command, target: Command, dt: float) -> Command:
+    """Return the velocity after some time on the way to a target.
+
+    Parameters
+    ----------
+    velocity
+        Now.
+    target
+        Where to; within the chair's limits.
+    dt
+        How long, s.
+
+    Examples
+    --------
+    >>> approached(Command(0.0, 0.0), Command(0.7, -0.1), 0.1)
+    Command(v=0.07, w=-0.1)
+    """
+    dv, dw = ACCELERATION * dt, TURN_ACCELERATION * dt
+    return Command(
+        min(max(target.v, velocity.v - dv), velocity.v + dv),
+        min(max(target.w, velocity.w - dw), velocity.w + dw),
+    )
+
+
+class VelocityController:
+    """Turns commands into the velocities the wheels are asked for, step by step.
+
+    Attributes
+    ----------
+    velocity
+        What the wheels are asked for now.
+    """
+
+    def __init__(self) -> None:
+        self.velocity = STILL
+
+    def reset(self, velocity: Command = STILL) -> None:
+        """Start from a velocity: at rest, or what is left of it after a collision."""
+        self.velocity = within_limits(velocity)
+
+    def approach(self, target: Command, dt: float) -> bool:
+        """Move on towards a target for a time; return whether anything changed."""
+        if self.velocity == target:
+            return False
+        self.velocity = approached(self.velocity, target, dt)
+        return True
