@@ -102,13 +102,17 @@ def resolve_study(
 
 
 def check_file(name_or_path: str) -> ResolvedStudy | Course | Instrument:
-    """Load a file of any kind; what it is follows from its fields.
+    """Load a file of any kind, or anything that ships; a file's kind follows from its fields.
 
     Raises
     ------
     InputError
         When it is not a valid protocol, course or instrument.
     """
+    if name_or_path in shipped_courses():
+        return load_course(name_or_path)
+    if name_or_path in shipped_instruments():
+        return load_instrument(name_or_path)
     data = locate("studies", name_or_path).document().data
     fields = data.keys() if isinstance(data, dict) else ()
     if "walls" in fields or "gates" in fields:

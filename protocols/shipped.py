@@ -88,3 +88,19 @@ def locate(kind: Kind, name_or_path: str, folder: Path | None = None) -> Source:
     else:
         what = f"no {_WORD[kind]} is named {name_or_path!r}"
     raise InputError(f"{what}; {allowed(path.stem, ('a file', *shipped))}")
+
+
+def shipped_text(name: str) -> str:
+    """Return a shipped file of any kind as it stands, comments included.
+
+    Raises
+    ------
+    InputError
+        When nothing of this name ships; lists what does.
+    """
+    kinds: tuple[Kind, ...] = ("studies", "courses", "instruments")
+    for kind in kinds:
+        if name in shipped_names(kind):
+            return locate(kind, name).text().decode()
+    every = [shipped for kind in kinds for shipped in shipped_names(kind)]
+    raise InputError(f"nothing that ships is named {name!r}; {allowed(name, every)}")

@@ -1,6 +1,6 @@
 """The least a study recorded elsewhere must have, and how its tables become ours."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -45,8 +45,21 @@ SURVEYS = TableRules(
 STEPS = TableRules(STEP_COLUMNS, ("t_s", "x_m", "y_m"))
 
 
-def conform(table: pa.Table, rules: TableRules, path: Path) -> pa.Table:
-    """Return a table with all our columns, in our order and types, then any others it has.
+def conform(
+    table: pa.Table, rules: TableRules, path: Path, columns: Sequence[str] | None = None
+) -> pa.Table:
+    """Return a table with our columns, in our order and types, then any others it has.
+
+    Parameters
+    ----------
+    table
+        As it was read.
+    rules
+        What is asked of it.
+    path
+        Its file, for messages.
+    columns
+        Only these columns; None for all of ours and any others.
 
     Raises
     ------
@@ -62,6 +75,8 @@ def conform(table: pa.Table, rules: TableRules, path: Path) -> pa.Table:
         )
     arrays, fields = [], []
     for column in rules.columns:
+        if columns is not None and column.name not in columns:
+            continue
         if column.name in there:
             array = _converted(table[column.name], column, path)
             _check_missing(array, column, rules, path)
@@ -70,8 +85,9 @@ def conform(table: pa.Table, rules: TableRules, path: Path) -> pa.Table:
             array = pa.chunked_array([pa.array([default] * len(table), column.type)])
         arrays.append(array)
         fields.append(pa.field(column.name, column.type, array.null_count > 0 or column.nullable))
+    ours = {column.name for column in rules.columns}
     for name in table.column_names:
-        if name not in {column.name for column in rules.columns}:
+        if name not in ours and (columns is None or name in columns):
             arrays.append(table[name])
             fields.append(table.schema.field(name))
     return pa.Table.from_arrays(arrays, schema=pa.schema(fields))

@@ -10,6 +10,7 @@ import pyarrow as pa
 from protocols.course.schema import Course
 from protocols.errors import InputError
 from protocols.instrument import Instrument
+from protocols.record.atomic import is_partial
 from protocols.record.header import StudyHeader, read_header
 from protocols.record.logs import failures
 from protocols.record.merge import LAPS_TABLE, PARTICIPANTS_TABLE, SURVEYS_TABLE
@@ -105,7 +106,7 @@ class Study:
             known = [str(n) for n in self._recorded_laps(participant)]
             raise InputError(f"{self.folder}: {participant} has no lap {lap}; {listed(known)}")
         wanted = None if columns is None else [*columns, *STEPS.required]
-        table = conform(read_parquet(path, wanted), STEPS, path)
+        table = conform(read_parquet(path, wanted), STEPS, path, columns)
         return table if columns is None else table.select(list(columns))
 
     def has_steps(self, participant: str, lap: int) -> bool:
@@ -124,10 +125,12 @@ class Study:
         return tuple(distinct[key] for key in sorted(distinct))
 
     def _session(self, participant: str) -> Path:
-        known = self.sessions()
-        if participant not in known:
-            raise InputError(f"{self.folder}: no participant {participant!r}; {listed(known)}")
-        return self.folder / SESSIONS / participant
+        path = self.folder / SESSIONS / participant
+        # Listing thousands of sessions for every lap would cost more than reading it.
+        if path.name != participant or is_partial(path) or not path.is_dir():
+            hint = listed(self.sessions())
+            raise InputError(f"{self.folder}: no participant {participant!r}; {hint}")
+        return path
 
     def _recorded_laps(self, participant: str) -> list[int]:
         names = (path.stem for path in self._session(participant).glob(steps_file("*")))

@@ -212,6 +212,8 @@ def test_any_kind_of_file_can_be_checked(tmp_path: Path):
         path = tmp_path / f"{name}.yaml"
         path.write_text(text)
         assert isinstance(check_file(str(path)), kind)
+    assert isinstance(check_file("lab-office"), Course)
+    assert isinstance(check_file("driving-assistance"), Instrument)
     (tmp_path / "x.yaml").write_text("- 1\n")
     with pytest.raises(InputError, match="must be a mapping of fields"):
         check_file(str(tmp_path / "x.yaml"))

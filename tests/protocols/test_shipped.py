@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from protocols.errors import InputError
-from protocols.shipped import locate, shipped_names
+from protocols.shipped import locate, shipped_names, shipped_text
 
 
 def test_shipped_names_are_listed_without_suffix():
@@ -59,3 +59,13 @@ def test_an_unreadable_file_is_an_input_error(tmp_path: Path):
     path.chmod(0)
     with pytest.raises(InputError, match="cannot be read: Permission denied"):
         locate("studies", str(path)).text()
+
+
+def test_shipped_files_are_shown_with_their_comments():
+    """What is printed to be copied is the file itself; an unknown name lists what ships."""
+    assert shipped_text("four-lap").startswith("# The study with people")
+    assert "Q11" in shipped_text("driving-assistance")
+    with pytest.raises(
+        InputError, match="nothing that ships is named 'lab'; allowed: .*lab-office"
+    ):
+        shipped_text("lab")
