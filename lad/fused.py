@@ -18,6 +18,7 @@ from numba.extending import intrinsic
 from numpy.typing import NDArray
 
 from lad.compiled import compiled, compiled_sums
+from lad.update import SMALLEST_SHARE
 
 Vector = NDArray[np.float64]
 Matrix = NDArray[np.float64]
@@ -235,8 +236,10 @@ def lowest_score(
             scores[i] += value * value
         scores[n] += q[output] * q[output]
     for i in range(n):
-        scores[i] /= (Q[i, i] + e[i] * e[i] / gamma) + (C[i, i] + r * s[i] * s[i])
-    scores[n] /= 1.0 / gamma + r
+        q_star = Q[i, i] + e[i] * e[i] / gamma
+        c_star = C[i, i] + r * s[i] * s[i]
+        scores[i] /= max(q_star + c_star, SMALLEST_SHARE * q_star)
+    scores[n] /= max(1.0 / gamma + r, SMALLEST_SHARE / gamma)
     return int(np.argmin(scores[: n + 1]))
 
 
@@ -285,7 +288,8 @@ def update_and_delete(
     s[n], e[n] = 1.0, -1.0
     slot = lowest_score(n, C, Q, alpha, work, gamma, q, r)
     starred_columns(n, slot, C, Q, work, gamma, r)
-    by_q, by_d = 1.0 / Q_star[slot], 1.0 / D[slot]
+    by_q = 1.0 / Q_star[slot]
+    by_d = 1.0 / max(D[slot], SMALLEST_SHARE * Q_star[slot])
     weights = np.empty(alpha.shape[0])
     for output in range(alpha.shape[0]):
         weights[output] = q[output] * s[slot]
@@ -336,3 +340,14 @@ def learn(
         full_update(n, C, Q, alpha, work, gamma, q, r)
         return FULL, gamma, n
     return REPLACED, gamma, update_and_delete(n, C, Q, alpha, work, gamma, q, r)
+
+
+@compiled
+def likeliest_wrong(n: int, Q: Matrix, work: Matrix) -> int:
+    """Find the basis vector whose column of QK - I the last step has most likely spoilt."""
+    k, best, largest = work[K_ROW], 0, -1.0
+    for i in range(n):
+        weight = Q[i, i] * k[i]
+        if weight > largest:
+            best, largest = i, weight
+    return best

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from lad.assistant import Assistance
 from lad.command import Command
 from lad.errors import InvalidTargetError
+from lad.health import Health
 from lad.hyperparameters import LADParameters
 from lad.likelihood import probability_of_help
 from lad.model_file import pack, read, unpack, write_whole
@@ -119,7 +120,11 @@ class LADAssistant:
         for name, process in (("when", self.when), ("how", self.how)):
             for key, array in state_arrays(process.state).items():
                 arrays[f"{name}/{key}"] = array
-        header = {"parameters": self.parameters.model_dump(), "window": window}
+        header = {
+            "parameters": self.parameters.model_dump(),
+            "window": window,
+            "health": [self.when.health.to_header(), self.how.health.to_header()],
+        }
         return pack(KIND, header, arrays)
 
     @classmethod
@@ -141,6 +146,7 @@ class LADAssistant:
                 if key.startswith(f"{name}/")
             }
             restore_state(process.state, mine)
+        model.when.health, model.how.health = (Health(**values) for values in header["health"])
         return model
 
     def save(self, path: str | Path) -> None:

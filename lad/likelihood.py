@@ -5,13 +5,13 @@ the log evidence with respect to the latent mean: q and r (Csato & Opper 2002, s
 """
 
 import math
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import erfcx, ndtr
 
-from lad.errors import InvalidTargetError
+from lad.errors import HyperparameterError, InvalidTargetError
 from lad.window import as_vector
 
 LARGEST_TARGET = 1e100
@@ -26,6 +26,26 @@ class Evidence(NamedTuple):
 
     q: NDArray[np.float64]
     r: float
+
+
+def check_outputs(likelihood: str, n_outputs: int) -> None:
+    """Check that there is such a likelihood, and that it can have so many outputs.
+
+    Raises
+    ------
+    HyperparameterError
+        What was given and what is allowed.
+    """
+    allowed = get_args(LikelihoodName)
+    if likelihood not in allowed:
+        raise HyperparameterError(
+            f"likelihood: given {likelihood!r}; allowed are {' and '.join(allowed)}"
+        )
+    if n_outputs < 1 or (likelihood == "probit" and n_outputs != 1):
+        wanted = "1" if likelihood == "probit" else "1 or more"
+        raise HyperparameterError(
+            f"n_outputs: given {n_outputs} for {likelihood}; allowed is {wanted}"
+        )
 
 
 def check_target(y: object, n_outputs: int, likelihood: LikelihoodName) -> NDArray[np.float64]:
@@ -48,10 +68,7 @@ def check_target(y: object, n_outputs: int, likelihood: LikelihoodName) -> NDArr
     """
     if n_outputs == 1 and np.ndim(y) == 0:  # type: ignore[arg-type]
         y = [y]
-    target = np.asarray(y)
-    if target.dtype.kind not in "fiu" or target.shape != (n_outputs,):
-        as_vector(y, n_outputs, "target", InvalidTargetError)
-    target = target.astype(np.float64, copy=False)
+    target = as_vector(y, n_outputs, "target", InvalidTargetError)
     for value in target.tolist():
         if not -LARGEST_TARGET <= value <= LARGEST_TARGET:
             raise InvalidTargetError(

@@ -11,8 +11,15 @@ from numpy.typing import NDArray
 
 from lad.hyperparameters import GPHyperparameters
 from lad.kernel import recursive_kernel
-from lad.likelihood import Evidence, LikelihoodName, check_target, evidence
-from lad.update import SMALLEST_NOVELTY, SMALLEST_VARIANCE, Prediction, Update, UpdateKind
+from lad.likelihood import Evidence, LikelihoodName, check_outputs, check_target, evidence
+from lad.update import (
+    SMALLEST_NOVELTY,
+    SMALLEST_SHARE,
+    SMALLEST_VARIANCE,
+    Prediction,
+    Update,
+    UpdateKind,
+)
 from lad.window import Window
 
 
@@ -63,19 +70,25 @@ def sparse_update(
     )
 
 
+def starred_sum(q_star: NDArray[np.float64], c_star: NDArray[np.float64]) -> NDArray[np.float64]:
+    """q* + c*, kept positive where rounding would not."""
+    return np.maximum(q_star + c_star, SMALLEST_SHARE * q_star)
+
+
 def deletion_scores(state: Posterior) -> NDArray[np.float64]:
     """Score every basis vector by how much the process would change without it."""
     squares: NDArray[np.float64] = np.square(state.alpha).sum(axis=1)
-    return squares / (np.diag(state.Q) + np.diag(state.C))
+    return squares / starred_sum(np.diag(state.Q), np.diag(state.C))
 
 
 def delete(state: Posterior, i: int) -> Posterior:
     """Remove basis vector i; the last one takes its place."""
-    q_star, c_star = state.Q[i, i], state.C[i, i]
+    q_star = state.Q[i, i]
+    sum_star = starred_sum(q_star, state.C[i, i])
     Q_column, sum_column = state.Q[:, i], state.Q[:, i] + state.C[:, i]
     Q_outer = np.outer(Q_column, Q_column) / q_star
-    alpha = state.alpha - np.outer(sum_column, state.alpha[i]) / (q_star + c_star)
-    C = state.C + Q_outer - np.outer(sum_column, sum_column) / (q_star + c_star)
+    alpha = state.alpha - np.outer(sum_column, state.alpha[i]) / sum_star
+    C = state.C + Q_outer - np.outer(sum_column, sum_column) / sum_star
     Q = state.Q - Q_outer
     kept = without(i, len(alpha))
     return Posterior(alpha[kept], C[np.ix_(kept, kept)], Q[np.ix_(kept, kept)])
@@ -107,6 +120,7 @@ class PlainStorkGP:
         likelihood: LikelihoodName = "gaussian",
         n_outputs: int = 1,
     ) -> None:
+        check_outputs(likelihood, n_outputs)
         self.hyperparameters = hyperparameters
         self.likelihood = likelihood
         self.n_outputs = n_outputs
@@ -124,6 +138,17 @@ class PlainStorkGP:
     def reset_window(self) -> None:
         """Start a new lap."""
         self.window.reset()
+
+    @property
+    def n_basis(self) -> int:
+        """Number of basis vectors n."""
+        return len(self.basis)
+
+    def check(self, x: object, y: object | None = None) -> None:
+        """Raise what ``observe`` and ``learn`` would raise, and change nothing."""
+        self.window.check(x)
+        if y is not None:
+            check_target(y, self.n_outputs, self.likelihood)
 
     def kernel(self) -> NDArray[np.float64]:
         """Covariance of the window with every basis vector, shape (n,)."""

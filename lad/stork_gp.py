@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lad import fused
+from lad.health import Health, KernelMatrix, watch
 from lad.hyperparameters import GPHyperparameters
-from lad.likelihood import LikelihoodName, check_target, evidence
+from lad.likelihood import LikelihoodName, check_outputs, check_target, evidence
 from lad.model_file import pack, read, unpack, write_whole
 from lad.snapshot import restore_state, restore_window, state_arrays, window_arrays
 from lad.state import State
@@ -36,6 +37,16 @@ class StorkGP:
     window
         A window to share with another process (the one who shares it observes once).
 
+    Attributes
+    ----------
+    health
+        The watch over |QK - I|: last residual, probes and repairs.
+
+    Raises
+    ------
+    HyperparameterError
+        When the likelihood is unknown, or has not that many outputs.
+
     References
     ----------
     Soh & Demiris, When and how to help, section III. Csato & Opper, Sparse on-line Gaussian
@@ -58,6 +69,7 @@ class StorkGP:
         n_outputs: int = 1,
         window: Window | None = None,
     ) -> None:
+        check_outputs(likelihood, n_outputs)
         self.hyperparameters = hyperparameters
         self.likelihood = likelihood
         self.n_outputs = n_outputs
@@ -74,6 +86,8 @@ class StorkGP:
         self._noise = hyperparameters.noise_variance
         self._inverse_scale = 1.0 / hyperparameters.squared_temporal_scale
         self._least_novel = max(hyperparameters.novelty * self._prior, SMALLEST_NOVELTY)
+        self.health = Health()
+        self._kernel_matrix = KernelMatrix(self.state, self._inverse_scale, self._prior)
         self._mean = np.zeros(n_outputs)
         self._latent = 0.0
         self._looked_at = -1
@@ -115,6 +129,21 @@ class StorkGP:
         self._look()
         return Prediction(self._mean.copy(), self._latent, self._latent + self._noise)
 
+    def covariances(self) -> NDArray[np.float64]:
+        """Shape (n,): k(b, x) of every basis vector and the window as it stands."""
+        self._look()
+        return self.state.work[fused.K_ROW, : self.state.n].copy()
+
+    def check(self, x: object, y: object | None = None) -> None:
+        """Raise what ``observe`` and ``learn`` would raise, and change nothing."""
+        self.window.check(x)
+        if y is not None:
+            check_target(y, self.n_outputs, self.likelihood)
+
+    def residual(self) -> float:
+        """Largest entry of |QK - I|, exactly: the price is one prediction per basis vector."""
+        return self._kernel_matrix.residual()
+
     def learn(self, y: object) -> Update:
         """Learn the target of the window as it stands.
 
@@ -147,7 +176,10 @@ class StorkGP:
             r,
         )
         novelty = gamma / self._prior if gamma >= SMALLEST_NOVELTY else 0.0
-        return self._take_in(done, novelty, slot)
+        update = self._take_in(done, novelty, slot)
+        if done != fused.SPARSE and slot < state.n:
+            watch(self.health, self._kernel_matrix, novelty)
+        return update
 
     def _take_in(self, done: int, novelty: float, slot: int) -> Update:
         """Keep the window where the step put the new basis vector, and say what happened."""
@@ -172,6 +204,7 @@ class StorkGP:
             "likelihood": self.likelihood,
             "n_outputs": self.n_outputs,
             "window": window,
+            "health": self.health.to_header(),
         }
         return pack(KIND, header, arrays | state_arrays(self.state))
 
@@ -189,6 +222,7 @@ class StorkGP:
         process = cls(hyper, header["likelihood"], header["n_outputs"])
         restore_window(process.window, header["window"], arrays)
         restore_state(process.state, arrays)
+        process.health = Health(**header["health"])
         return process
 
     def save(self, path: str | Path) -> None:

@@ -13,6 +13,10 @@ SMALLEST_NOVELTY = 1e-12
 """A residual variance gamma below this counts as 0, which is never novel."""
 
 
+SMALLEST_SHARE = 1e-12
+"""q* + c* of a deletion counts as at least this share of q*; in exact arithmetic it is positive."""
+
+
 class UpdateKind(IntEnum):
     """How a sample was taken in."""
 

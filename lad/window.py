@@ -1,11 +1,15 @@
 """The state of the model: the current input and its recent past, newest first."""
 
 from dataclasses import dataclass, field
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lad.errors import InvalidInputError
+
+LARGEST_INPUT = 1e150
+"""In lengthscales: squared distances then stay finite."""
 
 
 @dataclass
@@ -38,9 +42,17 @@ class Window:
 
     def __post_init__(self) -> None:
         self.lengthscales = np.array(self.lengthscales, dtype=np.float64)
+        self._largest = LARGEST_INPUT * self.lengthscales
         self.scaled = np.zeros((self.depth, self.lengthscales.size))
 
-    def observe(self, x: NDArray[np.float64]) -> None:
+    def check(self, x: object) -> NDArray[np.float64]:
+        """Return x as floats, shape (d,), or raise what ``observe`` would raise."""
+        vector = as_vector(x, self.lengthscales.size, "input", InvalidInputError)
+        if not (np.abs(vector) <= self._largest).all():  # NaN is no smaller either
+            _refuse(vector, self._largest)
+        return vector
+
+    def observe(self, x: object) -> None:
         """Push one input, dropping the oldest.
 
         Parameters
@@ -53,13 +65,9 @@ class Window:
         InvalidInputError
             When x has another shape or type, or a value that is not finite; nothing has changed.
         """
-        scaled = as_vector(x, self.lengthscales.size, "input", InvalidInputError)
-        scaled = scaled / self.lengthscales
-        if not np.isfinite(scaled).all():
-            message = "input: too large in units of its lengthscale; allowed below 1e308 of them"
-            raise InvalidInputError(message)
+        vector = self.check(x)
         self.scaled[1:] = self.scaled[:-1]
-        self.scaled[0] = scaled
+        self.scaled[0] = vector / self.lengthscales
         self.time += 1
         self.seen += 1
         self.version += 1
@@ -79,7 +87,7 @@ class Window:
 
 
 def as_vector(value: object, size: int, name: str, error: type[ValueError]) -> NDArray[np.float64]:
-    """Check that a value is a finite float vector of the right length.
+    """Check the type and the length of a vector; its values are the caller's business.
 
     Parameters
     ----------
@@ -90,15 +98,28 @@ def as_vector(value: object, size: int, name: str, error: type[ValueError]) -> N
     name
         What to call it in the message.
     error
-        The error to raise: shape, type and content are named in its one line.
+        The error to raise, one line that says what was given and what is allowed.
     """
-    array = np.asarray(value)
+    try:
+        array = np.asarray(value)
+    except ValueError:  # rows of unequal length
+        array = np.array(None)
     if array.dtype.kind not in "fiu":
-        raise error(f"{name}: given dtype {array.dtype}; allowed are real numbers")
+        raise error(f"{name}: given {_described(value, array)}; allowed are {size} real numbers")
     if array.shape != (size,):
         raise error(f"{name}: given shape {array.shape}; allowed is ({size},)")
-    array = array.astype(np.float64, copy=False)
-    if not np.isfinite(array).all():
-        bad = np.flatnonzero(~np.isfinite(array))
-        raise error(f"{name}: given {array[bad[0]]} at index {bad[0]}; allowed are finite numbers")
-    return array
+    return array.astype(np.float64, copy=False)
+
+
+def _described(value: object, array: NDArray[Any]) -> str:
+    """Name the type of what is not a vector of numbers."""
+    return f"dtype {array.dtype}" if isinstance(value, np.ndarray) else type(value).__name__
+
+
+def _refuse(x: NDArray[np.float64], largest: NDArray[np.float64]) -> NoReturn:
+    """Say which value is not finite, or too large."""
+    index = int(np.flatnonzero(~(np.abs(x) <= largest))[0])
+    raise InvalidInputError(
+        f"input: given {x[index]} at index {index}; allowed are finite numbers up to "
+        f"{LARGEST_INPUT:g} lengthscales"
+    )
