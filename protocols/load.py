@@ -1,6 +1,5 @@
 """Load a study and everything it refers to."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 from protocols.course.drivable import undrivable
@@ -8,11 +7,10 @@ from protocols.course.schema import Course
 from protocols.errors import InputError
 from protocols.fault import Fault
 from protocols.instrument import Instrument
-from protocols.plan import PlannedLap, SurveyPlan
+from protocols.questions import laps_with_items, question_faults
 from protocols.resolved import ResolvedStudy
 from protocols.shipped import Source, locate, shipped_names
 from protocols.study import StudyProtocol
-from protocols.suggestion import allowed
 from protocols.validation import validate
 
 
@@ -95,7 +93,7 @@ def resolve_study(
         instruments = _instruments(protocol, source.folder)
     except _ReferenceError as error:
         raise document.error([error.fault]) from None
-    faults = [*_survey_faults(protocol, instruments), *_outcome_faults(protocol, instruments)]
+    faults = tuple(question_faults(protocol, instruments))
     if faults:
         raise document.error(faults)
     return _resolved(protocol, chosen, instruments, participants, source.folder)
@@ -167,55 +165,6 @@ def _instruments(protocol: StudyProtocol, folder: Path | None) -> dict[str, Inst
     return found
 
 
-def _survey_faults(protocol: StudyProtocol, instruments: dict[str, Instrument]) -> Iterator[Fault]:
-    for i, lap in enumerate(protocol.laps):
-        for j, survey in enumerate(lap.survey):
-            instrument = instruments[survey.instrument]
-            ids = instrument.ids(assisted=True)
-            asked = _asked(survey, instrument, assisted=_assisted(protocol, lap))
-            if not asked:
-                message = f"no item of '{instrument.name}' applies to a lap without assistance"
-                yield Fault(("laps", i, "survey", j), message)
-            for k, item in enumerate(asked):
-                if item not in ids:
-                    message = (
-                        f"'{item}' is not an item of '{instrument.name}'; {allowed(item, ids)}"
-                    )
-                    yield Fault(("laps", i, "survey", j, "items", k), message)
-
-
-def _outcome_faults(protocol: StudyProtocol, instruments: dict[str, Instrument]) -> Iterator[Fault]:
-    """Find comparisons of answers that the plan does not ask for."""
-    for i, comparison in enumerate(protocol.analyses):
-        if comparison.item is None:
-            continue
-        name, item = comparison.item
-        for condition in (comparison.condition, comparison.reference):
-            if (condition, name, item) not in set(_questions(protocol, instruments)):
-                message = f"'{item}' of '{name}' is not asked after a lap of '{condition}'"
-                yield Fault(("analyses", i, "outcome"), message)
-
-
-def _questions(
-    protocol: StudyProtocol, instruments: dict[str, Instrument]
-) -> Iterator[tuple[str, str, str]]:
-    for lap in protocol.laps:
-        if lap.practice:
-            continue
-        for survey in lap.survey:
-            instrument = instruments[survey.instrument]
-            for item in _asked(survey, instrument, assisted=_assisted(protocol, lap)):
-                yield lap.condition, instrument.name, item
-
-
-def _assisted(protocol: StudyProtocol, lap: PlannedLap) -> bool:
-    return protocol.conditions[lap.condition].assistant != "none"
-
-
-def _asked(survey: SurveyPlan, instrument: Instrument, *, assisted: bool) -> tuple[str, ...]:
-    return instrument.ids(assisted=assisted) if survey.items == "all" else survey.items
-
-
 def _resolved(
     protocol: StudyProtocol,
     course: Course,
@@ -223,18 +172,10 @@ def _resolved(
     participants: int | None,
     folder: Path | None,
 ) -> ResolvedStudy:
-    def named(lap: PlannedLap, survey: SurveyPlan) -> SurveyPlan:
-        instrument = instruments[survey.instrument]
-        items = _asked(survey, instrument, assisted=_assisted(protocol, lap))
-        return SurveyPlan(instrument=instrument.name, items=items)
-
-    laps = tuple(
-        lap.model_copy(update={"survey": tuple(named(lap, survey) for survey in lap.survey)})
-        for lap in protocol.laps
-    )
     cohort = protocol.cohort
     if participants is not None:
         cohort = cohort.model_copy(update={"participants": participants})
+    laps = laps_with_items(protocol, instruments)
     changes = {"course": course.name, "laps": laps, "cohort": cohort}
     return ResolvedStudy(
         protocol.model_copy(update=changes), course, tuple(instruments.values()), folder

@@ -1,0 +1,79 @@
+"""Which questions a protocol asks, once its instruments are known."""
+
+from collections.abc import Iterator, Mapping
+
+from protocols.fault import Fault
+from protocols.instrument import Instrument
+from protocols.plan import PlannedLap, SurveyPlan
+from protocols.study import StudyProtocol
+from protocols.suggestion import allowed
+
+Instruments = Mapping[str, Instrument]
+"""A study's instruments, by what its protocol calls them (a name or a path)."""
+
+
+def laps_with_items(protocol: StudyProtocol, instruments: Instruments) -> tuple[PlannedLap, ...]:
+    """Return the planned laps with every instrument by its own name and every item by its id."""
+    return tuple(
+        lap.model_copy(
+            update={
+                "survey": tuple(
+                    SurveyPlan(
+                        instrument=instruments[survey.instrument].name,
+                        items=_items(protocol, lap, survey, instruments),
+                    )
+                    for survey in lap.survey
+                )
+            }
+        )
+        for lap in protocol.laps
+    )
+
+
+def question_faults(protocol: StudyProtocol, instruments: Instruments) -> Iterator[Fault]:
+    """Find questions that do not exist, and comparisons of answers that nobody is asked for."""
+    yield from _survey_faults(protocol, instruments)
+    yield from _outcome_faults(protocol, instruments)
+
+
+def _survey_faults(protocol: StudyProtocol, instruments: Instruments) -> Iterator[Fault]:
+    for i, lap in enumerate(protocol.laps):
+        for j, survey in enumerate(lap.survey):
+            instrument = instruments[survey.instrument]
+            ids = instrument.ids(assisted=True)
+            asked = _items(protocol, lap, survey, instruments)
+            if not asked:
+                message = f"no item of '{instrument.name}' applies to a lap without assistance"
+                yield Fault(("laps", i, "survey", j), message)
+            for k, item in enumerate(asked):
+                if item not in ids:
+                    hint = allowed(item, ids)
+                    message = f"'{item}' is not an item of '{instrument.name}'; {hint}"
+                    yield Fault(("laps", i, "survey", j, "items", k), message)
+
+
+def _outcome_faults(protocol: StudyProtocol, instruments: Instruments) -> Iterator[Fault]:
+    asked = {
+        (lap.condition, instruments[survey.instrument].name, item)
+        for lap in protocol.laps
+        if not lap.practice
+        for survey in lap.survey
+        for item in _items(protocol, lap, survey, instruments)
+    }
+    for i, comparison in enumerate(protocol.analyses):
+        if comparison.item is None:
+            continue
+        name, item = comparison.item
+        for condition in (comparison.condition, comparison.reference):
+            if (condition, name, item) not in asked:
+                message = f"'{item}' of '{name}' is not asked after a lap of '{condition}'"
+                yield Fault(("analyses", i, "outcome"), message)
+
+
+def _items(
+    protocol: StudyProtocol, lap: PlannedLap, survey: SurveyPlan, instruments: Instruments
+) -> tuple[str, ...]:
+    if survey.items != "all":
+        return survey.items
+    assisted = protocol.conditions[lap.condition].assistant != "none"
+    return instruments[survey.instrument].ids(assisted=assisted)
