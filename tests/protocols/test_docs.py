@@ -1,0 +1,43 @@
+"""docs/protocols.md says what the files may contain."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from pydantic import BaseModel
+
+from lad.hyperparameters import LADParameters
+from protocols.cohort import AgeRange, Cohort, Demographics, DriverChoice
+from protocols.condition import Condition, LimitationSettings
+from protocols.declared import LAP_OUTCOMES, Comparison, Exclusion
+from protocols.instrument import Instrument, Item
+from protocols.plan import PlannedLap, SurveyPlan
+from protocols.record.minimal import LAPS, PARTICIPANTS, STEPS, SURVEYS
+from protocols.study import LaserSettings, ModelChoice, StudyProtocol
+
+_PAGE = (Path(__file__).parents[2] / "docs" / "protocols.md").read_text(encoding="utf-8")
+_NAMED = {word for code in re.findall(r"`([^`]+)`", _PAGE) for word in re.findall(r"[\w-]+", code)}
+_MODELS = (
+    StudyProtocol, Cohort, Demographics, AgeRange, DriverChoice, Condition, LimitationSettings,
+    PlannedLap, SurveyPlan, ModelChoice, LADParameters, LaserSettings, Exclusion, Comparison,
+    Instrument, Item,
+)  # fmt: skip
+
+
+def _fields(model: type[BaseModel]) -> Iterator[str]:
+    for name, field in model.model_fields.items():
+        yield field.alias or name
+
+
+@pytest.mark.parametrize("model", _MODELS)
+def test_every_field_is_documented(model: type[BaseModel]):
+    """No field of a protocol or instrument file is missing from the page."""
+    assert set(_fields(model)) <= _NAMED
+
+
+def test_outcomes_and_minimal_columns_are_documented():
+    """Every outcome, and every column that a study recorded elsewhere must have, is named."""
+    assert set(LAP_OUTCOMES) <= _NAMED
+    for rules in (PARTICIPANTS, LAPS, SURVEYS, STEPS):
+        assert set(rules.required) | set(rules.defaults) <= _NAMED
