@@ -17,7 +17,8 @@ from protocols.record.minimal import LAPS, PARTICIPANTS, STEPS, SURVEYS
 from protocols.study import LaserSettings, ModelChoice, StudyProtocol
 
 _PAGE = (Path(__file__).parents[2] / "docs" / "protocols.md").read_text(encoding="utf-8")
-_NAMED = {word for code in re.findall(r"`([^`]+)`", _PAGE) for word in re.findall(r"[\w-]+", code)}
+_PROSE = re.sub(r"```.*?```", "", _PAGE, flags=re.DOTALL)
+_NAMED = {word for code in re.findall(r"`([^`]+)`", _PROSE) for word in re.findall(r"[\w-]+", code)}
 _MODELS = (
     StudyProtocol, Cohort, Demographics, AgeRange, DriverChoice, Condition, LimitationSettings,
     PlannedLap, SurveyPlan, ModelChoice, LADParameters, LaserSettings, Exclusion, Comparison,
