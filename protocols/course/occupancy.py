@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from protocols.course.obstacles import FloorPlan, floor_plan
 from protocols.course.schema import Course
@@ -29,8 +28,8 @@ class Occupancy:
         Shape (rows, columns), rows along y, columns along x: whether a cell's centre is outside
         every obstacle.
     distance
-        Same shape: distance from the cell's centre to the nearest obstacle, m, right within one
-        cell; 0 where occupied.
+        Same shape: distance from the cell's centre to the nearest obstacle, m; 0 inside one. An
+        obstacle thinner than a cell may cover no centre: go by this, not by ``free`` alone.
     """
 
     origin: tuple[float, float]
@@ -65,11 +64,8 @@ def occupancy(course: Course, cell: float = 0.05) -> Occupancy:
     columns = math.ceil((high_x - low_x) / cell) + 1
     rows = math.ceil((high_y - low_y) / cell) + 1
     xs, ys = np.meshgrid(low_x + cell * np.arange(columns), low_y + cell * np.arange(rows))
-    shapely.prepare(plan)
-    free = np.asarray(~shapely.contains_xy(plan, xs, ys), dtype=np.bool_)
-    between_centres = ndimage.distance_transform_edt(free, sampling=cell)
-    distance = np.clip(between_centres - cell / 2, 0.0, None)
-    return Occupancy((low_x, low_y), cell, free, distance)
+    distance = np.asarray(shapely.distance(plan, shapely.points(xs, ys)), dtype=np.float64)
+    return Occupancy((low_x, low_y), cell, distance > 0.0, distance)
 
 
 def _bounds(course: Course, plan: FloorPlan) -> tuple[float, float, float, float]:
