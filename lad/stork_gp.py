@@ -97,6 +97,11 @@ class StorkGP:
         """Number of basis vectors n."""
         return self.state.n
 
+    @property
+    def times(self) -> NDArray[np.int64]:
+        """Shape (n,): which input of the model's life each basis vector is, from 0."""
+        return self.state.times[: self.state.n].copy()
+
     def observe(self, x: NDArray[np.float64]) -> None:
         """Advance the window by one input, shape (d,)."""
         self.window.observe(x)
