@@ -4,10 +4,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
-from protocols.course.obstacles import FloorPlan, floor_plan
+from protocols.course.obstacles import obstacle_boxes
 from protocols.course.schema import Course
 
 MARGIN = 0.5
@@ -59,18 +58,24 @@ def occupancy(course: Course, cell: float = 0.05) -> Occupancy:
     cell
         Edge length of a cell, m.
     """
-    plan = floor_plan(course)
-    low_x, low_y, high_x, high_y = _bounds(course, plan)
+    low_x, low_y, high_x, high_y = _bounds(course)
     columns = math.ceil((high_x - low_x) / cell) + 1
     rows = math.ceil((high_y - low_y) / cell) + 1
     xs, ys = np.meshgrid(low_x + cell * np.arange(columns), low_y + cell * np.arange(rows))
-    distance = np.asarray(shapely.distance(plan, shapely.points(xs, ys)), dtype=np.float64)
+    square = np.full(xs.shape, np.inf)
+    for box in obstacle_boxes(course):
+        cos, sin = math.cos(box.heading), math.sin(box.heading)
+        dx, dy = xs - box.cx, ys - box.cy
+        past = np.maximum(np.abs(dx * cos + dy * sin) - box.length / 2, 0.0)
+        beside = np.maximum(np.abs(dy * cos - dx * sin) - box.width / 2, 0.0)
+        np.minimum(square, past * past + beside * beside, out=square)
+    distance = np.sqrt(square)
     return Occupancy((low_x, low_y), cell, distance > 0.0, distance)
 
 
-def _bounds(course: Course, plan: FloorPlan) -> tuple[float, float, float, float]:
-    gates = [p for gate in course.gates for p in (gate.left, gate.right)]
-    points = np.array([*course.centreline, (course.start.x, course.start.y), *gates])
-    low = np.minimum(points.min(axis=0), plan.bounds[:2]) - MARGIN
-    high = np.maximum(points.max(axis=0), plan.bounds[2:]) + MARGIN
+def _bounds(course: Course) -> tuple[float, float, float, float]:
+    points = [p for gate in course.gates for p in (gate.left, gate.right)]
+    points += [*course.centreline, (course.start.x, course.start.y)]
+    points += [(x, y) for box in obstacle_boxes(course) for x, y in box.corners().tolist()]
+    low, high = np.min(points, axis=0) - MARGIN, np.max(points, axis=0) + MARGIN
     return float(low[0]), float(low[1]), float(high[0]), float(high[1])
