@@ -84,9 +84,7 @@ def run_study(
     return Outcome(len(planned), len(found & planned), finished, failed)
 
 
-def _run(
-    plan: Plan, out: Path, missing: list[int], jobs: int, tell: Callable[[int], None]
-) -> int:
+def _run(plan: Plan, out: Path, missing: list[int], jobs: int, tell: Callable[[int], None]) -> int:
     """Run sessions and write each as it comes in; return how many finished."""
     finished = 0
     tell(0)

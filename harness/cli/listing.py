@@ -5,13 +5,10 @@ from typing import Annotated
 import typer
 
 from harness.cli.console import say
-from protocols.errors import InputError
 from protocols.load import (
     load_course,
-    load_instrument,
     load_protocol,
     shipped_courses,
-    shipped_instruments,
     shipped_protocols,
 )
 from protocols.shipped import shipped_text
