@@ -16,7 +16,7 @@ from participants.survey import Respondent
 from protocols.errors import InputError
 
 DRIVERS: Mapping[str, str] = {
-    "human": "participants.human:human_driver",
+    "human": "participants.human.driver:human_driver",
     "autonomous": "participants.autonomous:autonomous_driver",
     "scripted": "participants.scripted:scripted_driver",
 }

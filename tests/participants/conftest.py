@@ -52,7 +52,7 @@ class DrivenLap:
     rows: list[tuple] = field(default_factory=list)
 
     def column(self, name: str) -> np.ndarray:
-        """Return a stream of the lap: t, x, y, heading, v, w, user_v, user_w, h, a_v, a_w or arc."""
+        """Return one stream of the lap by its name."""
         names = ("t", "x", "y", "heading", "v", "w", "user_v", "user_w", "h", "a_v", "a_w", "arc")
         return np.array([row[names.index(name)] for row in self.rows])
 

@@ -1,0 +1,1 @@
+"""The human-like driver: looks ahead, reacts late, slows for corners, and learns."""

@@ -1,0 +1,36 @@
+"""What stands around the chair, also where its laser does not look."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from participants.planning.field import ASIDE, BEHIND, CELL, COLUMNS, FAR, ROWS
+from protocols.course.occupancy import Occupancy
+from protocols.pose import Pose
+
+
+def map_field(raster: Occupancy, pose: Pose) -> NDArray[np.float64]:
+    """Return the distance field around a pose from the course's raster.
+
+    Parameters
+    ----------
+    raster
+        The course.
+    pose
+        Where the chair is.
+
+    Returns
+    -------
+    NDArray
+        As of ``participants.planning.field.scan_field``, but of everything around.
+    """
+    ahead = CELL * np.arange(COLUMNS) - BEHIND
+    left = (CELL * np.arange(ROWS) - ASIDE)[:, None]
+    c, s = math.cos(pose.heading), math.sin(pose.heading)
+    columns = (pose.x + c * ahead - s * left - raster.origin[0]) / raster.cell
+    rows = (pose.y + s * ahead + c * left - raster.origin[1]) / raster.cell
+    found = ndimage.map_coordinates(raster.distance, [rows, columns], order=1, mode="nearest")
+    # Both rasters answer for the whole cell with its centre's distance.
+    return np.clip(found - CELL / math.sqrt(2.0), 0.0, FAR)
