@@ -1,13 +1,15 @@
-"""Sessions on every core: participants run to completion, each in one process."""
+"""Sessions on every core, or on a cluster: participants run to completion, each in one process."""
 
 import time
 import traceback
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
 
 import joblib
 
+from harness.cluster import dask_client
 from harness.plan import Plan
 from harness.session import Session
 from harness.world import BulletWorld
@@ -33,8 +35,13 @@ class Failed:
     trace: str
 
 
-def run_sessions(plan: Plan, numbers: Sequence[int], jobs: int) -> Iterator[Finished | Failed]:
+def run_sessions(
+    plan: Plan, numbers: Sequence[int], jobs: int, scheduler: str | None = None
+) -> Iterator[Finished | Failed]:
     """Run participants' sessions, and yield each as soon as it has ended.
+
+    Never more than a few sessions per process are under way or waiting, so memory does not grow
+    with the number of participants.
 
     Parameters
     ----------
@@ -43,17 +50,37 @@ def run_sessions(plan: Plan, numbers: Sequence[int], jobs: int) -> Iterator[Fini
     numbers
         The participants to run.
     jobs
-        Number of processes; 1 stays in this one.
+        Number of processes on this machine; 1 stays in this one.
+    scheduler
+        Address of a Dask scheduler whose workers run the sessions instead.
+
+    Raises
+    ------
+    InputError
+        When there is no scheduler at the address, or Dask is not installed.
     """
-    if jobs == 1 or len(numbers) == 1:
-        for number in numbers:
-            yield _attempt(plan, number)
+    if scheduler is None and (jobs == 1 or len(numbers) <= 1):
+        yield from (_attempt(plan, number) for number in numbers)
         return
-    with joblib.parallel_config(backend="loky", inner_max_num_threads=1):
+    with _backend(scheduler):
         crew = joblib.Parallel(
-            n_jobs=min(jobs, len(numbers)), return_as="generator_unordered", pre_dispatch="2*n_jobs"
+            n_jobs=-1 if scheduler else min(jobs, len(numbers)),
+            return_as="generator_unordered",
+            pre_dispatch="3*n_jobs",
+            batch_size=1,
         )
         yield from crew(joblib.delayed(_attempt)(plan, number) for number in numbers)
+
+
+@contextmanager
+def _backend(scheduler: str | None) -> Iterator[None]:
+    """Choose who runs the sessions: this machine's cores, or a cluster's workers."""
+    if scheduler is None:
+        with joblib.parallel_config(backend="loky", inner_max_num_threads=1):
+            yield
+        return
+    with dask_client(scheduler), joblib.parallel_config(backend="dask"):
+        yield
 
 
 def _attempt(plan: Plan, number: int) -> Finished | Failed:

@@ -1,11 +1,11 @@
 """Run a study: the missing sessions, then the tables. The runner alone writes."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from harness.casting import rehearse
-from harness.crew import Failed, run_sessions
+from harness.crew import Failed, Finished, run_sessions
 from harness.plan import Plan
 from protocols.record.rows import participant_id
 from protocols.record.store import (
@@ -47,7 +47,13 @@ class Outcome:
 
 
 def run_study(
-    plan: Plan, out: Path, jobs: int, tell: Tell | None = None, *, retry_failed: bool = False
+    plan: Plan,
+    out: Path,
+    jobs: int,
+    tell: Tell | None = None,
+    *,
+    scheduler: str | None = None,
+    retry_failed: bool = False,
 ) -> Outcome:
     """Run a study, or what is missing of it.
 
@@ -61,6 +67,8 @@ def run_study(
         Number of processes, 1 or more.
     tell
         Told whenever a session has ended.
+    scheduler
+        Address of a Dask scheduler whose workers run the sessions; only this process writes.
     retry_failed
         Whether sessions that raised in an earlier run are run again.
 
@@ -77,18 +85,19 @@ def run_study(
         found = set(finished_sessions(out))
         given_up = set() if retry_failed else set(failures(out)) - found
         missing = [n for n in numbers if participant_id(n) not in found | given_up]
-        finished = _run(plan, out, missing, jobs, _counting(tell, len(missing), len(numbers)))
+        sessions = run_sessions(plan, missing, jobs, scheduler)
+        finished = _write(out, sessions, _counting(tell, len(missing), len(numbers)))
         build_tables(out)
     planned = {participant_id(n) for n in numbers}
     failed = tuple(name for name in failures(out) if name in planned)
     return Outcome(len(planned), len(found & planned), finished, failed)
 
 
-def _run(plan: Plan, out: Path, missing: list[int], jobs: int, tell: Callable[[int], None]) -> int:
-    """Run sessions and write each as it comes in; return how many finished."""
+def _write(out: Path, sessions: Iterator[Finished | Failed], tell: Callable[[int], None]) -> int:
+    """Write each session as it comes in; return how many finished."""
     finished = 0
     tell(0)
-    for ended, session in enumerate(run_sessions(plan, missing, jobs), start=1):
+    for ended, session in enumerate(sessions, start=1):
         name = participant_id(session.number)
         if isinstance(session, Failed):
             write_failure(out, name, session.trace)

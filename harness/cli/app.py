@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 from typer.exceptions import TyperException
 
-from harness.cli import listing, replay, report, run, validate
+from harness.cli import check, listing, replay, report, run, validate
 from protocols.errors import InputError
 
 app = typer.Typer(
@@ -46,6 +46,7 @@ app.command("run")(run.run)
 app.command("report")(report.report)
 app.command("replay")(replay.replay)
 app.command("validate")(validate.validate)
+app.command("check")(check.check)
 app.command("protocols")(listing.protocols)
 app.command("courses")(listing.courses)
 app.command("show")(listing.show)

@@ -38,6 +38,10 @@ def run(
     jobs: Annotated[
         int, typer.Option(min=1, max=1024, help="Processes.", show_default="all cores")
     ] = os.cpu_count() or 1,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="Run on a Dask cluster, e.g. tcp://host:8786."),
+    ] = None,
     course: Annotated[
         str | None, typer.Option(help="Another course than the protocol's: a name or a file.")
     ] = None,
@@ -55,7 +59,7 @@ def run(
     """
     study = resolve_study(protocol, course=course, participants=participants)
     folder = out or Path("studies") / f"{study.protocol.name}-seed{seed}"
-    outcome = _run_with_progress(Plan(study, seed), folder, jobs, retry_failed)
+    outcome = _run_with_progress(Plan(study, seed), folder, jobs, scheduler, retry_failed)
     if outcome.found:
         say(f"{outcome.found} of {outcome.planned} sessions were there already.")
     if not no_report and outcome.found + outcome.finished:
@@ -71,7 +75,9 @@ def run(
     return 0
 
 
-def _run_with_progress(plan: Plan, folder: Path, jobs: int, retry_failed: bool) -> "Outcome":
+def _run_with_progress(
+    plan: Plan, folder: Path, jobs: int, scheduler: str | None, retry_failed: bool
+) -> "Outcome":
     from harness.runner import run_study  # noqa: PLC0415  # loads PyBullet
 
     columns = (
@@ -89,6 +95,7 @@ def _run_with_progress(plan: Plan, folder: Path, jobs: int, retry_failed: bool) 
             folder,
             jobs,
             lambda ended, planned: progress.update(task, completed=ended, total=planned),
+            scheduler=scheduler,
             retry_failed=retry_failed,
         )
 

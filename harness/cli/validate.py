@@ -1,4 +1,4 @@
-"""`lad-study validate`: is this file right?"""
+"""`lad-study validate`: whether a file is right, before anything runs."""
 
 from typing import Annotated
 

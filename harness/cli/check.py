@@ -1,0 +1,26 @@
+"""`lad-study check`: whether a study directory is whole."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from harness.cli.console import say
+from protocols.record.check import check_study
+
+
+def check(
+    study: Annotated[Path, typer.Argument(metavar="DIR", help="A study directory.")],
+) -> int:
+    """Verify a study: sessions, checksums, schema, codebook, row counts.
+
+    Says in a line each what is wrong and what to run; exit code 1 when anything is.
+
+    Example: lad-study check studies/four-lap-seed0
+    """
+    faults = check_study(study)
+    for fault in faults:
+        say(fault)
+    if not faults:
+        say(f"{study}: whole")
+    return 1 if faults else 0
