@@ -1,6 +1,7 @@
 """Bootstrap intervals over participants."""
 
 import math
+import warnings
 from collections.abc import Callable
 
 import numpy as np
@@ -37,7 +38,8 @@ def bca_interval(
     Returns
     -------
     tuple[float, float]
-        NaN, NaN with fewer than six participants or a statistic that does not vary.
+        NaN, NaN where there is none: fewer than six participants, or a statistic that does not
+        vary when a participant is left out.
 
     References
     ----------
@@ -45,15 +47,19 @@ def bca_interval(
     """
     if len(samples[0]) < FEWEST or all(np.ptp(sample) == 0 for sample in samples):
         return math.nan, math.nan
-    interval = stats.bootstrap(
-        samples,
-        statistic,
-        paired=len(samples) > 1,
-        vectorized=True,
-        n_resamples=RESAMPLES,
-        batch=500,
-        confidence_level=level,
-        method="BCa",
-        rng=rng,
-    ).confidence_interval
-    return float(interval.low), float(interval.high)
+    with warnings.catch_warnings(), np.errstate(invalid="ignore", divide="ignore"):
+        # Said to the caller by NaN: leaving one participant out changes nothing.
+        warnings.simplefilter("ignore", stats.DegenerateDataWarning)
+        interval = stats.bootstrap(
+            samples,
+            statistic,
+            paired=len(samples) > 1,
+            vectorized=True,
+            n_resamples=RESAMPLES,
+            batch=500,
+            confidence_level=level,
+            method="BCa",
+            rng=rng,
+        ).confidence_interval
+    low, high = float(interval.low), float(interval.high)
+    return (low, high) if math.isfinite(low) and math.isfinite(high) else (math.nan, math.nan)

@@ -81,15 +81,16 @@ def rank_biserial(differences: Sample, rng: np.random.Generator, level: float = 
         level=level,
         n=len(d),
         method=f"matched-pairs rank-biserial correlation; {_BOOTSTRAP}",
+        notes=("all differences have one sign: no bootstrap interval",)
+        if (d >= 0).all() or (d <= 0).all()
+        else (),
     )
 
 
 def _dz(d: NDArray[np.float64], axis: int = -1) -> Any:
     # A resample of one participant alone has no spread; its d_z is infinite in the mean's
-    # direction, which the percentiles handle as the extreme it is.
-    mean, sd = d.mean(axis=axis), d.std(axis=axis, ddof=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return mean / sd
+    # direction, and percentiles take it as the extreme it is.
+    return d.mean(axis=axis) / d.std(axis=axis, ddof=1)
 
 
 def _rank_biserial(d: NDArray[np.float64], axis: int = -1) -> Any:

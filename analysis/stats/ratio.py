@@ -48,23 +48,6 @@ def mean_of_ratios(
     return _ratio("mean of ratios", _of_ratios, (reference, condition), rng, level)
 
 
-def mean_gain(
-    reference: Sample, condition: Sample, rng: np.random.Generator, level: float = 0.95
-) -> TestResult:
-    """Return the mean of reference - condition: seconds gained.
-
-    Parameters
-    ----------
-    reference, condition
-        Times of the same participants in the same order, s; incomplete pairs are left out.
-    rng
-        For the bootstrap.
-    level
-        Confidence level of the interval.
-    """
-    return _ratio("mean gain", _gain, (reference, condition), rng, level)
-
-
 def _ratio(
     name: str,
     statistic: Any,
@@ -78,7 +61,7 @@ def _ratio(
     low, high = bca_interval((reference, condition), statistic, rng, level)
     return TestResult(
         name=name,
-        quantity="s" if statistic is _gain else "reference / condition",
+        quantity="reference / condition",
         estimate=float(statistic(reference, condition)),
         low=low,
         high=high,
@@ -94,7 +77,3 @@ def _of_means(a: NDArray[np.float64], b: NDArray[np.float64], axis: int = -1) ->
 
 def _of_ratios(a: NDArray[np.float64], b: NDArray[np.float64], axis: int = -1) -> Any:
     return (a / b).mean(axis=axis)
-
-
-def _gain(a: NDArray[np.float64], b: NDArray[np.float64], axis: int = -1) -> Any:
-    return (a - b).mean(axis=axis)

@@ -142,8 +142,9 @@ def _notes(given: NDArray[np.float64], kept: NDArray[np.float64], low: float) ->
     notes = []
     if len(kept) < len(given):
         notes.append(f"{len(given) - len(kept)} of {len(given)} differences are zero")
-    if tied := len(kept) - len(np.unique(np.abs(kept))):
-        notes.append(f"{tied} tied ranks")
+    sizes, shared = np.unique(np.abs(kept), return_counts=True)
+    if len(sizes) < len(kept):
+        notes.append(f"{shared[shared > 1].sum()} of {len(given)} differences are tied")
     if math.isnan(low):
         notes.append(f"{len(given)} pairs are too few for an interval of this level")
     return tuple(notes)

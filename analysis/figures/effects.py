@@ -1,0 +1,42 @@
+"""How much each comparison of lap times shows, and how sure that is."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from analysis.comparisons import PairedComparison
+from analysis.figures.style import BLACK, GREY, new_figure, say_nothing_to_show, tidy
+
+
+def effect_figure(comparisons: Sequence[PairedComparison]) -> Figure:
+    """Draw mean paired differences of lap times with 95% intervals, confirmatory ones filled."""
+    shown = [c for c in comparisons if c.difference is not None and c.difference.computed]
+    figure = new_figure(1.1 + 0.45 * max(len(shown), 1))
+    if not shown:
+        return say_nothing_to_show(figure, "No comparison of lap times can be computed.")
+    axes = figure.subplots()
+    for at, c in enumerate(reversed(shown)):
+        found = c.difference
+        if found is None:  # pragma: no cover - shown holds no such comparison
+            continue
+        reach = np.array([[found.estimate - found.low], [found.high - found.estimate]])
+        declared = c.kind == "confirmatory"
+        axes.errorbar(
+            found.estimate, at, xerr=reach, fmt="o" if declared else "s", color=BLACK,
+            markerfacecolor=BLACK if declared else "white", capsize=4, markersize=7,
+        )  # fmt: skip
+        axes.annotate(
+            f"{found.estimate:+.1f} s", (found.estimate, at), xytext=(0, 8), ha="center",
+            textcoords="offset points", fontsize=9,
+        )  # fmt: skip
+    axes.axvline(0, color=GREY, linewidth=1)
+    axes.set_yticks(range(len(shown)), [_label(c) for c in reversed(shown)])
+    axes.set_ylim(-0.5, len(shown) - 0.3)
+    axes.set_xlabel("difference of lap times / s (negative: faster), mean and 95% interval")
+    tidy(axes, grid="x")
+    return figure
+
+
+def _label(c: PairedComparison) -> str:
+    return f"{c.condition}\nagainst {c.reference}"

@@ -1,0 +1,87 @@
+"""Answers on a Likert scale as diverging bars: neutral in the middle, agreement to the right."""
+
+from collections.abc import Sequence
+
+import matplotlib as mpl
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from analysis.figures.style import GREY, LIGHT, new_figure, say_nothing_to_show, tidy
+from protocols.instrument import Instrument
+
+
+def likert_figure(table: pd.DataFrame, instrument: Instrument) -> Figure:
+    """Draw every item's answers by condition.
+
+    Parameters
+    ----------
+    table
+        As ``analysis.tables.survey.survey_table`` returns it.
+    instrument
+        The questionnaire: its scale and items.
+    """
+    rows = table[table["answered"] > 0]
+    figure = new_figure(1.2 + 0.24 * len(rows) + 0.2 * rows["item"].nunique())
+    if rows.empty:
+        return say_nothing_to_show(figure, f"{instrument.title}: nothing was answered.")
+    axes = figure.subplots()
+    places = _places(rows)
+    shades = _shades(instrument.points)
+    _bars(axes, rows, places, instrument, shades)
+    axes.axvline(0, color=GREY, linewidth=0.8)
+    axes.set_yticks(places, list(rows["condition"]), fontsize=8)
+    _item_names(axes, rows, places)
+    axes.set_ylim(max(places) + 0.8, min(places) - 0.9)
+    axes.set_xlim(-105, 105)
+    ticks = range(-100, 101, 50)
+    axes.set_xticks(ticks, [f"{abs(t)}%" for t in ticks])
+    axes.set_xlabel("disagree        share of answers        agree")
+    tidy(axes, grid="x")
+    figure.legend(loc="outside upper center", ncols=min(instrument.points, 5), frameon=False,
+                  fontsize=8, handlelength=1.2, columnspacing=1.0)  # fmt: skip
+    return figure
+
+
+def _places(rows: pd.DataFrame) -> list[float]:
+    """Return each row's height: one below the other, with a gap between items."""
+    new_item = (rows["item"] != rows["item"].shift()).to_numpy()
+    return [float(i + 0.9 * k) for i, k in enumerate(np.cumsum(new_item))]
+
+
+def _shades(points: int) -> list[str]:
+    """Return colours from disagreement (brown) over neutral (grey) to agreement (green)."""
+    ends = mpl.colormaps["BrBG"](np.linspace(0.12, 0.88, points))
+    shades = [mpl.colors.to_hex(colour) for colour in ends]
+    if points % 2:
+        shades[points // 2] = LIGHT
+    return shades
+
+
+def _bars(
+    axes: Axes,
+    rows: pd.DataFrame,
+    places: Sequence[float],
+    instrument: Instrument,
+    shades: Sequence[str],
+) -> None:
+    names = [f"n_{i}" for i in range(1, instrument.points + 1)]
+    shares = rows[names].to_numpy(dtype=np.float64)
+    shares = 100 * shares / shares.sum(axis=1, keepdims=True)
+    middle = instrument.points // 2
+    left = -shares[:, :middle].sum(axis=1)
+    if instrument.points % 2:
+        left = left - shares[:, middle] / 2
+    for i, anchor in enumerate(instrument.anchors):
+        axes.barh(places, shares[:, i], left=left, height=0.86, color=shades[i], label=anchor,
+                  edgecolor="white", linewidth=0.5)  # fmt: skip
+        left = left + shares[:, i]
+
+
+def _item_names(axes: Axes, rows: pd.DataFrame, places: Sequence[float]) -> None:
+    """Write each item's words above its bars."""
+    for (item, text), group in rows.assign(place=places).groupby(["item", "text"], sort=False):
+        words = str(text) if len(str(text)) <= 88 else f"{str(text)[:85]}..."
+        axes.text(-104, float(group["place"].min()) - 0.62, f"{item}  {words}", fontsize=8,
+                  va="bottom", fontweight="bold")  # fmt: skip

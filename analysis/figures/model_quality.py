@@ -1,0 +1,73 @@
+"""Whether the model knew when to help: AUC per lap, and whether p(h) means what it says."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from analysis.figures.style import BLACK, GREY, colours, new_figure, say_nothing_to_show, tidy
+from analysis.roles import Part
+
+
+def model_figure(
+    measures: pd.DataFrame, reliability: pd.DataFrame, parts: Sequence[Part]
+) -> Figure:
+    """Draw the AUC of every lap, and the reliability curve.
+
+    Parameters
+    ----------
+    measures
+        One row per lap: condition, when_auc.
+    reliability
+        As ``analysis.tables.reliability.reliability_table`` returns it.
+    parts
+        The study's conditions; those with a model's predictions are drawn.
+    """
+    figure = new_figure(3.3, 7.0)
+    known = measures.dropna(subset=["when_auc"])
+    shown = [part for part in parts if part.condition in set(known["condition"])]
+    if not shown:
+        return say_nothing_to_show(
+            figure, "No lap has both a model's p(h) and a demonstrator to compare it with."
+        )
+    left, right = figure.subplots(1, 2)
+    _strips(left, known, shown, colours(parts))
+    _curves(right, reliability, shown, colours(parts))
+    return figure
+
+
+def _strips(axes: Axes, known: pd.DataFrame, parts: Sequence[Part], shades: dict[str, str]) -> None:
+    for at, part in enumerate(parts):
+        auc = known.loc[known["condition"] == part.condition, "when_auc"].to_numpy()
+        spread = np.linspace(-0.18, 0.18, len(auc)) if len(auc) > 1 else np.zeros(1)
+        axes.scatter(at + spread, auc, s=16, color=shades[part.condition], alpha=0.7)
+        axes.hlines(np.median(auc), at - 0.28, at + 0.28, color=BLACK, linewidth=2)
+        axes.annotate(f"{np.median(auc):.3f}", (at + 0.3, float(np.median(auc))), fontsize=9,
+                      va="center")  # fmt: skip
+    axes.axhline(0.5, color=GREY, linewidth=0.8, linestyle=":")
+    axes.set_xticks(range(len(parts)), [part.condition.replace("-", "-\n") for part in parts])
+    axes.set_xlim(-0.6, len(parts) - 0.2)
+    lowest = float(known["when_auc"].min())
+    axes.set_ylim(min(0.45, lowest - 0.05), 1.02)
+    axes.set_ylabel("when-AUC per lap (bar: median)")
+    tidy(axes, grid="y")
+
+
+def _curves(
+    axes: Axes, reliability: pd.DataFrame, parts: Sequence[Part], shades: dict[str, str]
+) -> None:
+    axes.plot([0, 1], [0, 1], color=GREY, linewidth=0.8, linestyle=":")
+    for part in parts:
+        bins = reliability[reliability["condition"] == part.condition]
+        axes.plot(
+            bins["predicted"], bins["observed"], marker="o" if part.role == "model" else "s",
+            color=shades[part.condition], linewidth=1.4, markersize=5, label=part.condition,
+        )  # fmt: skip
+    axes.set_xlim(-0.02, 1.02)
+    axes.set_ylim(-0.02, 1.02)
+    axes.set_xlabel("predicted p(h = 1 | x)")
+    axes.set_ylabel("demonstrator would help")
+    axes.legend(frameon=False, fontsize=8, loc="upper left")
+    tidy(axes, grid="y")

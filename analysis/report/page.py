@@ -1,0 +1,44 @@
+"""The order of the page."""
+
+from collections.abc import Callable
+
+from analysis.report.blocks import Page, Section
+from analysis.report.sections.against_paper import paper_section
+from analysis.report.sections.answer import answer_section
+from analysis.report.sections.comparisons import comparison_section
+from analysis.report.sections.data import data_section
+from analysis.report.sections.lap_times import lap_time_section
+from analysis.report.sections.maps import map_section
+from analysis.report.sections.measures import measure_section
+from analysis.report.sections.methods import methods_section
+from analysis.report.sections.model import model_section
+from analysis.report.sections.people import people_section
+from analysis.report.sections.survey import survey_section
+from analysis.results import StudyResults
+
+SECTIONS: tuple[Callable[[StudyResults], Section], ...] = (
+    answer_section,
+    people_section,
+    lap_time_section,
+    comparison_section,
+    map_section,
+    measure_section,
+    survey_section,
+    model_section,
+    paper_section,
+    methods_section,
+    data_section,
+)
+
+
+def build_page(results: StudyResults) -> Page:
+    """Return the report of a study."""
+    study = results.frames.study
+    protocol = study.protocol
+    seed = "" if study.seed is None else f", seed {study.seed}"
+    return Page(
+        title=protocol.title,
+        subtitle=f"Protocol {protocol.name}, course {study.course.name}{seed}; "
+        f"{results.flow.analysed} of {results.flow.planned} participants analysed",
+        sections=tuple(section(results) for section in SECTIONS),
+    )

@@ -1,0 +1,135 @@
+"""What a reader wants first: did assistance help, how much, how sure."""
+
+import math
+
+from analysis.comparisons import PairedComparison
+from analysis.figures.effects import effect_figure
+from analysis.outcomes import by_participant
+from analysis.report.blocks import Block, Caution, Fact, Facts, Paragraph, Picture, Section
+from analysis.report.words import count, interval, is_p, number, percent, plural
+from analysis.results import StudyResults
+from analysis.roles import yardstick
+
+ALPHA = 0.05
+
+
+def answer_section(results: StudyResults) -> Section:
+    """Return the answers, each with its size and its certainty."""
+    chosen = _chosen(results)
+    blocks: list[Block] = []
+    if chosen:
+        blocks.append(Facts(tuple(_fact(results, c) for c in chosen)))
+        blocks += [Paragraph(_sentence(c)) for c in chosen]
+    else:
+        blocks.append(Paragraph("The study has no two conditions whose lap times can be compared."))
+    blocks += [Caution(text) for text in _cautions(results)]
+    if chosen:
+        blocks.append(_picture(chosen))
+    return Section("answer", "Did assistance help?", tuple(blocks))
+
+
+def _chosen(results: StudyResults) -> tuple[PairedComparison, ...]:
+    """Return the declared comparisons of lap times; undeclared ones with help when none is."""
+    declared = tuple(c for c in results.declared if c.outcome == "lap_time_s")
+    if declared:
+        return declared
+    helped = {p.condition for p in results.frames.parts if p.role in ("demonstrator", "model")}
+    reference = yardstick(results.frames.parts)
+    return tuple(c for c in results.lap_times if c.condition in helped and c.reference == reference)
+
+
+def _fact(results: StudyResults, c: PairedComparison) -> Fact:
+    question = f"{c.condition} against {c.reference}"
+    if c.difference is None or not c.difference.computed:
+        return Fact(question, "cannot be said", f"{_why_not(c)}.")
+    gain = -c.difference.estimate
+    answer = f"{number(abs(gain))} s {'faster' if gain > 0 else 'slower'}"
+    wide = by_participant(results.frames, "lap_time_s")
+    faster = int((wide[c.condition] < wide[c.reference]).sum())
+    detail = f"{faster} of {plural(c.complete, 'participant')} faster; {_p(c)}"
+    return Fact(question, answer, detail)
+
+
+def _sentence(c: PairedComparison) -> str:
+    kind = "Confirmatory" if c.kind == "confirmatory" else "Exploratory"
+    start = f"{kind}, {c.name}: "
+    if c.difference is None or not c.difference.computed:
+        return f"{start}cannot be computed: {_why_not(c)}."
+    ratio = c.ratio_of_means
+    speedup = "" if ratio is None else f" ({percent(100 * ratio.estimate)} speedup)"
+    text = (
+        f"{start}{c.condition} {number(c.mean_condition)} s against {c.reference} "
+        f"{number(c.mean_reference)} s{speedup}; mean difference "
+        f"{number(c.difference.estimate)} s, 95% interval "
+        f"{interval(c.difference.low, c.difference.high)} s; n = {count(c.complete)}"
+        f"{_missing(c)}; {_p(c)}. {_verdict(c)}"
+    )
+    if c.equivalence is not None and c.equivalence.computed:
+        equal = c.equivalence.p < ALPHA
+        text += (
+            f" Equivalence within the declared margin is {'shown' if equal else 'not shown'} "
+            f"(TOST {is_p(c.equivalence.p)})."
+        )
+    return text
+
+
+def _verdict(c: PairedComparison) -> str:
+    p = c.signed_rank.p if math.isnan(c.p_holm) else c.p_holm
+    if not math.isfinite(p) or p >= ALPHA:
+        return "No difference is shown; that is not the same as no difference."
+    faster = c.signed_rank.estimate < 0
+    return f"{c.condition} is {'faster' if faster else 'slower'} than {c.reference}."
+
+
+def _p(c: PairedComparison) -> str:
+    if math.isfinite(c.p_holm):
+        return f"Wilcoxon {is_p(c.p_holm)} after Holm"
+    if c.signed_rank.computed:
+        return f"Wilcoxon {is_p(c.signed_rank.p)}, not corrected"
+    return f"no test: {c.signed_rank.why_not}"
+
+
+def _missing(c: PairedComparison) -> str:
+    return f" ({plural(c.incomplete, 'pair')} missing)" if c.incomplete else ""
+
+
+def _why_not(c: PairedComparison) -> str:
+    reasons = [r.why_not for r in (c.difference, c.signed_rank) if r is not None and r.why_not]
+    found = reasons[0] if reasons else "there is nothing to compare"
+    return f"{found} (n = {c.complete}, {c.incomplete} missing)"
+
+
+def _cautions(results: StudyResults) -> list[str]:
+    frames = results.frames
+    found = []
+    if (frames.participants["kind"] == "synthetic").any():
+        found.append(
+            "The participants are synthetic. The page shows what the simulation's assumptions "
+            "imply; nothing on it is a finding about people. Questionnaire answers follow from "
+            "assumed loadings in particular."
+        )
+    positions = frames.laps.groupby("condition")["lap"].nunique()
+    if len(positions) > 1 and (positions == 1).all():
+        found.append(
+            "Everybody drove the conditions in the same order, each in one place of the session: "
+            "practice and condition are confounded. A difference between conditions may be "
+            "practice in part, and no test on these data can tell."
+        )
+    return found
+
+
+def _picture(chosen: tuple[PairedComparison, ...]) -> Picture:
+
+    said = [
+        f"{c.condition} minus {c.reference} {number(c.difference.estimate)} s "
+        f"({interval(c.difference.low, c.difference.high)})"
+        for c in chosen
+        if c.difference is not None and c.difference.computed
+    ]
+    return Picture(
+        name="effects",
+        caption="Mean paired differences of lap times with 95% t intervals. Filled: confirmatory; "
+        "open: exploratory. n is given above.",
+        alternative=f"Differences of lap times: {'; '.join(said) or 'none can be computed'}.",
+        figure=effect_figure(chosen),
+    )

@@ -1,0 +1,77 @@
+"""Lap times by condition, and speedups."""
+
+from typing import Any
+
+from analysis.figures.lap_times import lap_time_figure
+from analysis.report.blocks import Picture, Section, Shown, table
+from analysis.report.words import count, interval, number, percent
+from analysis.results import StudyResults
+from analysis.tables.comparisons import speedup_table
+from analysis.tables.lap_times import lap_time_table
+
+
+def lap_time_section(results: StudyResults) -> Section:
+    """Return the paper's Figure 6 and its numbers, with every participant's line."""
+    frames = results.frames
+    times = lap_time_table(frames)
+    known = times.dropna(subset=["paper_mean_s"])
+    paper = dict(zip(known["condition"], known["paper_mean_s"], strict=True))
+    said = "; ".join(
+        f"{r['condition']} mean {number(r['mean_s'])} s (sd {number(r['sd_s'])}, n = {r['n']}, "
+        f"{r['unfinished']} unfinished)"
+        for r in times.to_dict("records")
+    )
+    return Section(
+        "lap-times",
+        "Lap times",
+        (
+            Picture(
+                "lap_times",
+                "Lap times by condition: every participant a line, mean and standard deviation "
+                "beside it, unfinished laps as crosses where they ended (the paper's Figure 6).",
+                f"Lap times by condition: {said}.",
+                lap_time_figure(frames.laps, frames.parts, paper),
+            ),
+            table("lap_times", "Lap times of finished laps, in seconds. Unfinished laps and laps "
+                  "that were not driven are counted, not averaged.", times, _TIMES),
+            table("speedups", "Speedups over complete pairs. Percentages are reference / condition "
+                  "(the paper's 137%): above 100% the condition is faster. Intervals: 95%, of the "
+                  "gain from t, of the ratios from a BCa bootstrap over participants.",
+                  speedup_table(results.lap_times), _SPEEDUPS),
+        ),
+    )  # fmt: skip
+
+
+_TIMES = [
+    Shown("condition", lambda r: r["condition"], words=True),
+    Shown("n", lambda r: count(r["n"])),
+    Shown("unfinished", lambda r: count(r["unfinished"])),
+    Shown("not driven", lambda r: count(r["not_driven"])),
+    Shown("mean", lambda r: number(r["mean_s"])),
+    Shown("sd", lambda r: number(r["sd_s"])),
+    Shown("median", lambda r: number(r["median_s"])),
+    Shown("range", lambda r: interval(r["min_s"], r["max_s"])),
+    Shown("paper: mean", lambda r: number(r["paper_mean_s"], 2)),
+    Shown("paper: sd", lambda r: number(r["paper_sd_s"], 2)),
+]
+
+
+def _ratio(name: str) -> list[Shown]:
+    def cell(row: dict[str, Any]) -> str:
+        return percent(row[f"{name}_percent"])
+
+    def ends(row: dict[str, Any]) -> str:
+        return interval(row[f"{name}_percent_low"], row[f"{name}_percent_high"], 0)
+
+    return [Shown(name.replace("_", " "), cell), Shown("95%", ends)]
+
+
+_SPEEDUPS = [
+    Shown("condition", lambda r: r["condition"], words=True),
+    Shown("reference", lambda r: r["reference"], words=True),
+    Shown("n", lambda r: count(r["n"])),
+    Shown("gained / s", lambda r: number(r["gain_s"])),
+    Shown("95%", lambda r: interval(r["gain_s_low"], r["gain_s_high"])),
+    *_ratio("ratio_of_means"),
+    *_ratio("mean_of_ratios"),
+]

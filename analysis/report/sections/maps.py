@@ -1,0 +1,63 @@
+"""Where assistance was given: the plan, and shares by section."""
+
+from analysis.figures.assistance_map import assistance_map
+from analysis.figures.section_shares import section_figure
+from analysis.report.blocks import Block, Paragraph, Picture, Section, Shown, table
+from analysis.report.words import count, percent
+from analysis.results import StudyResults
+
+
+def map_section(results: StudyResults) -> Section:
+    """Return the paper's Figure 7, and the shares behind it."""
+    frames, sections = results.frames, results.sections
+    helped = [p.condition for p in frames.parts if p.role in ("demonstrator", "model")]
+    if not helped:
+        nothing = Paragraph("In no condition of this study could anybody help.")
+        return Section("assistance", "Where assistance was given", (nothing,))
+    laps = results.records.measures.groupby("condition")["assisted_fraction"].count()
+    n = ", ".join(f"{c}: {int(laps.get(c, 0))} laps" for c in helped)
+    blocks: list[Block] = [
+        Picture(
+            "assistance_map",
+            "Driven paths (grey) and smoothed density of the steps in which assistance counted, "
+            f"on one colour scale; each density integrates to 1 ({n}; the paper's Figure 7). "
+            "Gaussian kernel, standard deviation 0.25 m. S start, R1 and R2 gates, F finish.",
+            f"Floor plans with driven paths and where assistance was given. {_most(results)}",
+            assistance_map(results.records.steps, frames.study.course, helped),
+        ),
+        Picture(
+            "section_shares",
+            "Share of assisted steps in each section of the course, in driving order. Black "
+            "lines: steps in which the (shadow) demonstrator would have helped.",
+            f"Assisted share by section. {_most(results)}",
+            section_figure(sections, frames.parts),
+        ),
+        table("section_shares", "Assisted steps by course section, pooled over laps.", sections,
+              _COLUMNS),
+    ]  # fmt: skip
+    return Section("assistance", "Where assistance was given", tuple(blocks))
+
+
+def _most(results: StudyResults) -> str:
+    """Say for every helped condition where its assistance was."""
+    said = []
+    for condition, rows in results.sections.groupby("condition", sort=False):
+        by_kind = rows.groupby("kind")["share_of_assistance_percent"].sum(min_count=1).dropna()
+        if len(by_kind):
+            shares = ", ".join(
+                f"{percent(share)} in {str(kind).replace('_', ' ')} sections"
+                for kind, share in by_kind.sort_values(ascending=False).items()
+            )
+            said.append(f"{condition}: {shares}.")
+    return " ".join(said) or "No assistance was recorded."
+
+
+_COLUMNS = [
+    Shown("section", lambda r: r["section"], words=True),
+    Shown("kind", lambda r: r["kind"].replace("_", " "), words=True),
+    Shown("condition", lambda r: r["condition"], words=True),
+    Shown("steps", lambda r: count(r["steps"])),
+    Shown("assisted", lambda r: percent(r["assisted_percent"], 1)),
+    Shown("of all assistance", lambda r: percent(r["share_of_assistance_percent"], 1)),
+    Shown("demonstrator would help", lambda r: percent(r["would_percent"], 1)),
+]

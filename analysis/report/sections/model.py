@@ -1,0 +1,44 @@
+"""Model quality: did it know when to help."""
+
+from analysis.figures.model_quality import model_figure
+from analysis.report.blocks import Picture, Section, Shown, table
+from analysis.report.words import count, number
+from analysis.results import StudyResults
+
+
+def model_section(results: StudyResults) -> Section:
+    """Return AUC, Brier score and calibration against the shadow demonstrator."""
+    measures = results.records.measures
+    auc = measures.groupby("condition", sort=False)["when_auc"].agg(["count", "median"])
+    said = "; ".join(
+        f"{condition} median AUC {number(row['median'], 3)} over {int(row['count'])} laps"
+        for condition, row in auc.iterrows()
+        if row["count"]
+    )
+    return Section(
+        "model",
+        "Model quality",
+        (
+            Picture(
+                "model_quality",
+                "Left: area under the ROC curve of p(h = 1 | x) against what the demonstrator did "
+                "or, as a shadow, would have done, lap by lap (bar: median; dotted: chance). "
+                "Right: reliability, steps pooled in tenths of p. Predictions were recorded before "
+                "the model learnt from a step: they are out of sample.",
+                f"Model quality: {said or 'nothing to compare'}.",
+                model_figure(measures, results.reliability, results.frames.parts),
+            ),
+            table("reliability", "Reliability of p(h = 1 | x), pooled over laps.",
+                  results.reliability, _COLUMNS, folded=True),
+        ),
+    )  # fmt: skip
+
+
+_COLUMNS = [
+    Shown("condition", lambda r: r["condition"], words=True),
+    Shown("p from", lambda r: number(r["low"])),
+    Shown("to", lambda r: number(r["high"])),
+    Shown("steps", lambda r: count(r["steps"])),
+    Shown("mean p", lambda r: number(r["predicted"], 3)),
+    Shown("would help", lambda r: number(r["observed"], 3)),
+]

@@ -1,0 +1,70 @@
+"""Participants flow, and who they were."""
+
+import pandas as pd
+
+from analysis.flow import Flow
+from analysis.report.blocks import Block, Paragraph, Section, Shown, table
+from analysis.report.words import count, number, plural
+from analysis.results import StudyResults
+from analysis.stats.describe import describe
+
+
+def people_section(results: StudyResults) -> Section:
+    """Return who was planned, recorded, excluded and why, and analysed; and the laps they drove."""
+    blocks: list[Block] = [
+        table("participants_flow", "Participants flow.", _stages(results.flow),
+              [Shown("stage", lambda r: r["stage"], words=True),
+               Shown("participants", lambda r: count(r["participants"]))]),
+        table("laps_flow", f"Laps of the {results.flow.analysed} analysed participants: planned = "
+              "finished + unfinished + not driven.", results.flow.laps, _LAPS),
+        Paragraph(_who(results.frames.participants)),
+    ]  # fmt: skip
+    if results.records.without_steps:
+        blocks.append(
+            Paragraph(
+                f"{plural(results.records.without_steps, 'lap')} came without a step table: lap "
+                "times and answers are analysed, measures from steps are missing there."
+            )
+        )
+    return Section("participants", "Participants", tuple(blocks))
+
+
+_LAPS = [
+    Shown("condition", lambda r: r["condition"], words=True),
+    Shown("planned", lambda r: count(r["planned"])),
+    Shown("finished", lambda r: count(r["finished"])),
+    Shown("time limit", lambda r: count(r["time_limit"])),
+    Shown("withdrew", lambda r: count(r["withdrew"])),
+    Shown("otherwise unfinished", lambda r: count(r["unfinished_otherwise"])),
+    Shown("not driven", lambda r: count(r["not_driven"])),
+]
+
+
+def _stages(flow: Flow) -> pd.DataFrame:
+    stages = [
+        ("planned", flow.planned),
+        ("− session not run", flow.not_run),
+        ("− session broke off with an error", flow.failed),
+        ("= recorded", flow.recorded),
+        ("− consent refused", flow.refused),
+        *((f"− excluded: {reason}", n) for reason, n in flow.excluded.items()),
+        ("= analysed", flow.analysed),
+        ("of these, finished every analysed lap", flow.completed),
+    ]
+    return pd.DataFrame(stages, columns=["stage", "participants"])
+
+
+def _who(people: pd.DataFrame) -> str:
+    ages = describe(pd.to_numeric(people["age_years"]))
+    parts = [f"Analysed: {plural(len(people), 'participant')}"]
+    if ages.n:
+        parts.append(
+            f"age {number(ages.low, 0)} to {number(ages.high, 0)} years (mean {number(ages.mean)}, "
+            f"sd {number(ages.sd, 2)}, {ages.missing} not given)"
+        )
+    for name in ("gender", "handedness", "kind", "impairment"):
+        known = people[name].dropna().value_counts()
+        if len(known):
+            said = ", ".join(f"{value} {n}" for value, n in sorted(known.items()))
+            parts.append(f"{name}: {said}")
+    return "; ".join(parts) + "."

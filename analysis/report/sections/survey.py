@@ -1,0 +1,96 @@
+"""The questionnaires."""
+
+from analysis.comparisons import PairedComparison
+from analysis.figures.likert import likert_figure
+from analysis.report.blocks import Block, Paragraph, Picture, Section, Shown, table
+from analysis.report.words import NOTHING, count, interval, number, p_value, percent
+from analysis.results import StudyResults, SurveyResults
+from analysis.roles import Part, first
+from analysis.tables.comparisons import comparison_table
+
+
+def survey_section(results: StudyResults) -> Section:
+    """Return answers and tests of every instrument."""
+    if not results.surveys:
+        nothing = Paragraph("Nothing was asked in this study.")
+        return Section("questionnaire", "Questionnaire", (nothing,))
+    blocks: list[Block] = []
+    for survey in results.surveys:
+        blocks += _instrument(results, survey)
+    return Section("questionnaire", "Questionnaire", tuple(blocks))
+
+
+def _instrument(results: StudyResults, survey: SurveyResults) -> list[Block]:
+    instrument, answers = survey.instrument, survey.table
+    missing, asked = int(answers["missing"].sum()), int(answers["asked"].sum())
+    agreeing = f"{instrument.anchors[instrument.agreement_from - 1]!r} or above"
+    blocks: list[Block] = [
+        Paragraph(
+            f"{instrument.title}: {len(instrument.items)} items on {instrument.points} points "
+            f"({', '.join(instrument.anchors)}). {missing} of {asked} answers are missing; every "
+            "item uses all answers it has. "
+            f"{instrument.source}"
+        ),
+        Picture(
+            f"answers_{instrument.name}",
+            "Answers by item and condition, centred on the scale's middle: disagreement to the "
+            "left, agreement to the right.",
+            f"Diverging bars of answers. {_said(survey)}",
+            likert_figure(answers, instrument),
+        ),
+        table(f"answers_{instrument.name}", f"Answers by item and condition. Agreement: {agreeing},"
+              " in percent of those who answered.", answers, _ANSWERS, folded=True),
+    ]  # fmt: skip
+    helpers = _between_helpers(results.frames.parts, survey.comparisons)
+    if helpers:
+        blocks.append(
+            table(f"items_{instrument.name}", f"Exploratory: {helpers[0].name}, item by item. "
+                  "Wilcoxon signed-rank, exact, mid-ranks, zeros after Pratt; p not corrected.",
+                  comparison_table(helpers), _TESTS)
+        )  # fmt: skip
+    others = [c for c in survey.comparisons if c not in helpers]
+    if others:
+        blocks.append(
+            table(f"items_{instrument.name}_others", "Exploratory: items between the other "
+                  "conditions after which they were asked; p not corrected.",
+                  comparison_table(others), _TESTS, folded=True)
+        )  # fmt: skip
+    return blocks
+
+
+def _between_helpers(
+    parts: tuple[Part, ...], comparisons: tuple[PairedComparison, ...]
+) -> list[PairedComparison]:
+    """Return the paper's comparison: the model against the demonstrator."""
+    pair = {first(parts, "demonstrator"), first(parts, "model")}
+    return [c for c in comparisons if {c.condition, c.reference} == pair]
+
+
+def _said(survey: SurveyResults) -> str:
+    return "; ".join(
+        f"{row['item']} {row['condition']} {percent(row['agree_percent'])} agree"
+        for row in survey.table.to_dict("records")
+    )
+
+
+_ANSWERS = [
+    Shown("item", lambda r: r["item"], words=True),
+    Shown("text", lambda r: r["text"], words=True),
+    Shown("condition", lambda r: r["condition"], words=True),
+    Shown("answered", lambda r: count(r["answered"])),
+    Shown("missing", lambda r: count(r["missing"])),
+    Shown("median", lambda r: number(r["median"])),
+    Shown("agree", lambda r: percent(r["agree_percent"])),
+]
+_TESTS = [
+    Shown("item", lambda r: r["outcome"].rpartition(".")[2], words=True),
+    Shown("condition", lambda r: r["condition"], words=True),
+    Shown("reference", lambda r: r["reference"], words=True),
+    Shown("pairs", lambda r: count(r["n_pairs"])),
+    Shown("missing", lambda r: count(r["n_missing"])),
+    Shown("T+", lambda r: number(r["wilcoxon_statistic"])),
+    Shown("p", lambda r: p_value(r["wilcoxon_p"])),
+    Shown("rank-biserial", lambda r: number(r["rank_biserial"], 2)),
+    Shown("95%", lambda r: interval(r["rank_biserial_low"], r["rank_biserial_high"], 2)),
+    Shown("remarks", lambda r: r["notes"] or NOTHING, words=True),
+]

@@ -1,0 +1,93 @@
+"""Write the report of a study, whole or not at all."""
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+from analysis.figures.files import png, svg
+from analysis.report.page import build_page
+from analysis.report.render import render
+from analysis.results import analyse
+from analysis.statistics import statistics_json
+from protocols.errors import InputError
+from protocols.record.atomic import partial_beside
+from protocols.record.reader import open_study
+
+REPORT = "report"
+
+
+def write_report(study_dir: Path, progress: Callable[[str], None] | None = None) -> Path:
+    """Analyse a study directory and write its report.
+
+    ``report/`` gets ``index.html`` (one self-contained page), ``figures/`` (SVG and PNG),
+    ``tables/`` (CSV) and ``statistics.json``. It is built beside its place and renamed; an older
+    report is replaced as a whole.
+
+    Parameters
+    ----------
+    study_dir
+        The study directory.
+    progress
+        Told in a few words what is being done.
+
+    Returns
+    -------
+    Path
+        The page.
+
+    Raises
+    ------
+    InputError
+        When the directory is no study, holds no session, cannot be used or cannot be written.
+    """
+    tell = progress or (lambda _: None)
+    study_dir = Path(study_dir)
+    results = analyse(open_study(study_dir), tell)
+    tell("Drawing figures")
+    page = build_page(results)
+    svgs = {picture.name: svg(picture.figure) for picture in page.pictures}
+    pngs = {picture.name: png(picture.figure) for picture in page.pictures}
+    tables = {t.name: t.frame.to_csv(index=False, lineterminator="\n") for t in page.tables}
+    tell("Writing the report")
+    contents: dict[str, bytes] = {
+        "index.html": render(page, svgs).encode(),
+        "statistics.json": statistics_json(results).encode(),
+        **{f"figures/{name}.svg": content for name, content in svgs.items()},
+        **{f"figures/{name}.png": content for name, content in pngs.items()},
+        **{f"tables/{name}.csv": text.encode() for name, text in tables.items()},
+    }
+    try:
+        replace_folder(study_dir / REPORT, contents)
+    except OSError as error:
+        raise InputError(
+            f"{study_dir / REPORT}: the report cannot be written: {error.strerror}"
+        ) from None
+    return study_dir / REPORT / "index.html"
+
+
+def replace_folder(target: Path, contents: dict[str, bytes]) -> None:
+    """Make a folder with these files, in place of whatever has its name.
+
+    Raises
+    ------
+    OSError
+        When it cannot be written; the old folder is still there then.
+    """
+    partial = partial_beside(target)
+    aside = partial_beside(target.with_name(f"old-{target.name}"))
+    for leftover in (partial, aside):
+        shutil.rmtree(leftover, ignore_errors=True)
+    try:
+        for name, content in contents.items():
+            path = partial / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
+        if target.exists():
+            target.rename(aside)
+        partial.rename(target)
+    except BaseException:
+        shutil.rmtree(partial, ignore_errors=True)
+        if aside.exists() and not target.exists():
+            aside.rename(target)
+        raise
+    shutil.rmtree(aside, ignore_errors=True)

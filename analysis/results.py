@@ -1,0 +1,106 @@
+"""Everything that is computed about a study, before anything is written about it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import pandas as pd
+
+from analysis.comparisons import (
+    PairedComparison,
+    declared_comparisons,
+    item_comparisons,
+    lap_time_comparisons,
+)
+from analysis.flow import Flow, participants_flow
+from analysis.frames import StudyFrames, study_frames
+from analysis.lap_records import LapRecords, read_laps
+from analysis.tables.against_paper import paper_table
+from analysis.tables.measures import measure_table
+from analysis.tables.reliability import reliability_table
+from analysis.tables.sections import section_table
+from analysis.tables.survey import survey_table
+from protocols.instrument import Instrument
+from protocols.record.reader import Study
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True, slots=True)
+class SurveyResults:
+    """One questionnaire: answers by item and condition, and items compared between conditions."""
+
+    instrument: Instrument
+    table: pd.DataFrame
+    comparisons: tuple[PairedComparison, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class StudyResults:
+    """What was found.
+
+    Attributes
+    ----------
+    frames
+        The study's tables.
+    flow
+        Who took part and who is analysed.
+    records
+        Measures of every analysed lap, and its pooled steps.
+    declared
+        Comparisons the protocol declares.
+    lap_times
+        Lap times of every two conditions, declared or not.
+    surveys
+        One per instrument.
+    measures, sections, reliability, paper
+        Tables; see ``analysis.tables``.
+    """
+
+    frames: StudyFrames
+    flow: Flow
+    records: LapRecords
+    declared: tuple[PairedComparison, ...]
+    lap_times: tuple[PairedComparison, ...]
+    surveys: tuple[SurveyResults, ...]
+    measures: pd.DataFrame
+    sections: pd.DataFrame
+    reliability: pd.DataFrame
+    paper: pd.DataFrame
+
+
+def analyse(study: Study, progress: Progress | None = None) -> StudyResults:
+    """Compute everything.
+
+    Raises
+    ------
+    InputError
+        When a table or a step file cannot be used.
+    """
+    frames = study_frames(study)
+    records = read_laps(frames, progress)
+    if progress is not None:
+        progress("Comparing conditions")
+    lap_times = lap_time_comparisons(frames)
+    surveys = tuple(_survey(frames, instrument) for instrument in study.instruments)
+    measures = measure_table(frames, records)
+    return StudyResults(
+        frames=frames,
+        flow=participants_flow(frames),
+        records=records,
+        declared=declared_comparisons(frames),
+        lap_times=lap_times,
+        surveys=surveys,
+        measures=measures,
+        sections=section_table(frames, records),
+        reliability=reliability_table(frames, records),
+        paper=paper_table(frames, lap_times, [s.table for s in surveys], measures),
+    )
+
+
+def _survey(frames: StudyFrames, instrument: Instrument) -> SurveyResults:
+    items = [item.id for item in instrument.items]
+    return SurveyResults(
+        instrument=instrument,
+        table=survey_table(frames, instrument),
+        comparisons=item_comparisons(frames, instrument.name, items),
+    )

@@ -1,0 +1,57 @@
+"""The statistics as JSON: for a reader who wants to compute on."""
+
+import json
+import math
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from analysis.results import StudyResults
+from analysis.versions import analysis_versions
+
+
+def statistics_json(results: StudyResults) -> str:
+    """Return every test, estimate and flow count as JSON; what is missing or infinite is null."""
+    study = results.frames.study
+    content = {
+        "schema": 1,
+        "study": {
+            "protocol": study.protocol.name,
+            "course": study.course.name,
+            "seed": study.seed,
+            "digest": study.header.digest,
+        },
+        "versions": {
+            "analysis": analysis_versions(),
+            "recording": study.versions() or [study.header.versions],
+        },
+        "flow": results.flow,
+        "laps_without_steps": results.records.without_steps,
+        "declared_comparisons": results.declared,
+        "lap_times": results.lap_times,
+        "surveys": {s.instrument.name: s.comparisons for s in results.surveys},
+        "measures": results.measures,
+        "sections": results.sections,
+        "reliability": results.reliability,
+        "against_the_paper": results.paper,
+    }
+    return json.dumps(plain(content), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def plain(value: Any) -> Any:
+    """Return dataclasses, frames and arrays as lists, mappings, text and finite numbers."""
+    if is_dataclass(value) and not isinstance(value, type):
+        return {field.name: plain(getattr(value, field.name)) for field in fields(value)}
+    if isinstance(value, pd.DataFrame):
+        return [plain(row) for row in value.to_dict("records")]
+    if isinstance(value, dict):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple | np.ndarray):
+        return [plain(item) for item in value]
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

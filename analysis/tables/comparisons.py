@@ -1,0 +1,79 @@
+"""Paired comparisons and speedups, one row each."""
+
+import math
+from collections.abc import Iterable
+
+import pandas as pd
+
+from analysis.comparisons import PairedComparison
+from analysis.stats.result import TestResult
+
+
+def comparison_table(comparisons: Iterable[PairedComparison]) -> pd.DataFrame:
+    """Return one row per comparison: n, Wilcoxon, Holm, effect sizes, mean difference, KS."""
+    return pd.DataFrame([_row(c) for c in comparisons])
+
+
+def speedup_table(comparisons: Iterable[PairedComparison]) -> pd.DataFrame:
+    """Return one row per comparison of times: seconds gained and both ratios, with intervals.
+
+    Ratios are reference over condition; a percentage above 100 is a speedup, as the paper's 137%.
+    """
+    return pd.DataFrame(
+        [
+            {
+                "condition": c.condition,
+                "reference": c.reference,
+                "n": c.complete,
+                "mean_condition_s": c.mean_condition,
+                "mean_reference_s": c.mean_reference,
+                **_estimate("gain_s", c.difference, -1.0),
+                **_estimate("ratio_of_means_percent", c.ratio_of_means, 100.0),
+                **_estimate("mean_of_ratios_percent", c.mean_of_ratios, 100.0),
+            }
+            for c in comparisons
+            if c.ratio_of_means is not None
+        ]
+    )
+
+
+def _row(c: PairedComparison) -> dict[str, object]:
+    return {
+        "name": c.name,
+        "kind": c.kind,
+        "family": c.family or "",
+        "outcome": c.outcome,
+        "unit": c.unit,
+        "condition": c.condition,
+        "reference": c.reference,
+        "n_pairs": c.complete,
+        "n_missing": c.incomplete,
+        "mean_condition": c.mean_condition,
+        "mean_reference": c.mean_reference,
+        **_estimate("mean_difference", c.difference),
+        **_estimate("pseudomedian", c.signed_rank),
+        "wilcoxon_statistic": c.signed_rank.statistic,
+        "wilcoxon_p": c.signed_rank.p,
+        "wilcoxon_p_holm": c.p_holm,
+        **_estimate("rank_biserial", c.rank_biserial),
+        **_estimate("d_z", c.dz),
+        "ks_d": math.nan if c.ks is None else c.ks.statistic,
+        "ks_p": math.nan if c.ks is None else c.ks.p,
+        "tost_p": math.nan if c.equivalence is None else c.equivalence.p,
+        "notes": "; ".join(_remarks(c)),
+    }
+
+
+def _estimate(name: str, result: TestResult | None, factor: float = 1.0) -> dict[str, float]:
+    """Return estimate and interval; a negative factor turns the interval round."""
+    if result is None:
+        return {name: math.nan, f"{name}_low": math.nan, f"{name}_high": math.nan}
+    low, high = sorted((factor * result.low, factor * result.high))
+    return {name: factor * result.estimate, f"{name}_low": low, f"{name}_high": high}
+
+
+def _remarks(c: PairedComparison) -> list[str]:
+    parts = [c.signed_rank, c.rank_biserial, c.dz, c.difference, c.equivalence]
+    results = [r for r in parts if r is not None]
+    reasons = [f"{r.name}: {r.why_not}" for r in results if r.why_not is not None]
+    return [*reasons, *c.signed_rank.notes]
