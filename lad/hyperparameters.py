@@ -41,15 +41,17 @@ RecursionDepth = Annotated[int, Field(ge=1, le=1_000), BeforeValidator(_number)]
 Threshold = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False), BeforeValidator(_number)]
 
 
-def _one_line(name: str, error: ValidationError) -> str:
+def _one_line(model: type[BaseModel], error: ValidationError) -> str:
     """Say in one line what was given and what is allowed."""
     parts = []
     for item in error.errors(include_url=False):
         where = ".".join(str(part) for part in item["loc"])
         message = item["msg"].removeprefix("Value error, ")
+        if item["type"] == "extra_forbidden":
+            message = f"no such field; allowed are {', '.join(model.model_fields)}"
         given = "" if item["type"] == "missing" else f" (given {item['input']!r})"
         parts.append(f"{where}: {message}{given}")
-    return f"{name}: " + "; ".join(parts)
+    return f"{model.__name__}: " + "; ".join(parts)
 
 
 class _Checked(BaseModel):
@@ -61,7 +63,7 @@ class _Checked(BaseModel):
         try:
             super().__init__(**values)
         except ValidationError as error:
-            raise HyperparameterError(_one_line(type(self).__name__, error)) from None
+            raise HyperparameterError(_one_line(type(self), error)) from None
 
     # Nested validation (a protocol file) then keeps pydantic's own errors, with their location.
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]  # pydantic's own mark
@@ -72,7 +74,7 @@ class _Checked(BaseModel):
         try:
             return cls.model_validate(values)
         except ValidationError as error:
-            raise HyperparameterError(_one_line(cls.__name__, error)) from None
+            raise HyperparameterError(_one_line(cls, error)) from None
 
 
 class GPHyperparameters(_Checked):

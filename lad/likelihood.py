@@ -5,6 +5,7 @@ the log evidence with respect to the latent mean: q and r (Csato & Opper 2002, s
 """
 
 import math
+from numbers import Real
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
@@ -66,7 +67,7 @@ def check_target(y: object, n_outputs: int, likelihood: LikelihoodName) -> NDArr
     InvalidTargetError
         What was given and what is allowed.
     """
-    if n_outputs == 1 and np.ndim(y) == 0:  # type: ignore[arg-type]
+    if n_outputs == 1 and isinstance(y, Real) and not isinstance(y, bool):
         y = [y]
     target = as_vector(y, n_outputs, "target", InvalidTargetError)
     for value in target.tolist():
