@@ -9,7 +9,7 @@ import pyarrow.parquet as pq
 
 from protocols.errors import InputError
 from protocols.record.atomic import partial_beside, sync_folder
-from protocols.record.parquet import PARQUET_SETTINGS, read_parquet
+from protocols.record.parquet import parquet_settings, read_parquet
 from protocols.record.session import LAPS_FILE, PARTICIPANT_FILE, SURVEYS_FILE
 from protocols.record.sessions import SESSIONS, finished_sessions
 from protocols.record.tables import LAP_SCHEMA, PARTICIPANT_SCHEMA, SURVEY_SCHEMA
@@ -50,7 +50,7 @@ def _build(
     target = folder / table
     partial = partial_beside(target)
     try:
-        with pq.ParquetWriter(partial, schema, **PARQUET_SETTINGS) as writer:
+        with pq.ParquetWriter(partial, schema, **parquet_settings(schema)) as writer:
             for rows in _row_groups(folder / SESSIONS, part, schema, participants):
                 writer.write_table(rows)
         with partial.open("rb") as stream:

@@ -10,20 +10,31 @@ import pyarrow.parquet as pq
 
 from protocols.errors import InputError
 
-PARQUET_SETTINGS: dict[str, Any] = {
-    "compression": "zstd",
-    "compression_level": 3,
-    "version": "2.6",
-    "data_page_version": "1.0",
-    "write_page_checksum": True,
-}
-"""Everything that changes the bytes is said, so that no default can change them."""
+
+def parquet_settings(schema: pa.Schema) -> dict[str, Any]:
+    """Return how a table is written: everything that changes the bytes, so no default can.
+
+    Measured floats hardly repeat: a dictionary makes them larger, splitting their bytes into
+    streams before compression makes them a fifth smaller.
+    """
+    floats = [field.name for field in schema if pa.types.is_floating(field.type)]
+    return {
+        "compression": "zstd",
+        "compression_level": 3,
+        "version": "2.6",
+        "data_page_version": "1.0",
+        "write_page_checksum": True,
+        "use_dictionary": [field.name for field in schema if field.name not in floats],
+        "use_byte_stream_split": floats,
+    }
 
 
 def parquet_bytes(table: pa.Table) -> bytes:
     """Return a table as a Parquet file's content; the same table gives the same bytes."""
     sink = io.BytesIO()
-    pq.write_table(table.combine_chunks(), sink, row_group_size=1 << 20, **PARQUET_SETTINGS)
+    pq.write_table(
+        table.combine_chunks(), sink, row_group_size=1 << 20, **parquet_settings(table.schema)
+    )
     return sink.getvalue()
 
 
