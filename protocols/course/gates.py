@@ -16,7 +16,7 @@ def forward(gate: Gate) -> Point:
     """
     dx, dy = gate.left[0] - gate.right[0], gate.left[1] - gate.right[1]
     length = math.hypot(dx, dy)
-    return dy / length, -dx / length
+    return dy / length, (gate.right[0] - gate.left[0]) / length
 
 
 def crossing(gate: Gate, before: Point, after: Point) -> float | None:
