@@ -33,7 +33,7 @@ class PairedComparison:
     ----------
     name, outcome, unit, condition, reference
         What is compared; differences are condition minus reference.
-    kind, family
+    kind, family, declared
         As the protocol declares it; exploratory without a family when it does not.
     complete, incomplete
         Analysed participants with both values, and with one or none.
@@ -60,6 +60,7 @@ class PairedComparison:
     reference: str
     kind: Kind = "exploratory"
     family: str | None = None
+    declared: bool = False
     complete: int
     incomplete: int
     mean_condition: float
@@ -127,6 +128,7 @@ def _declared(frames: StudyFrames, comparison: Comparison) -> PairedComparison:
         result,
         name=comparison.name,
         kind=comparison.kind,
+        declared=True,
         family=comparison.family if comparison.kind == "confirmatory" else None,
         equivalence=None if margin is None else paired_tost(differences, margin),
     )

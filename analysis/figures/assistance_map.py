@@ -35,7 +35,7 @@ def assistance_map(steps: pd.DataFrame, course: Course, conditions: Sequence[str
         The conditions, from left to right.
     """
     columns = max(len(conditions), 1)
-    figure = new_figure(3.9 * -(-columns // 2), 7.2 if columns > 1 else 4.2)
+    figure = new_figure(3.5 * -(-columns // 2), 6.4 if columns > 1 else 4.0)
     if not conditions or steps.empty:
         return say_nothing_to_show(figure, "No steps of assisted laps were recorded.")
     grid = plan_grid(course)

@@ -33,7 +33,7 @@ def effect_figure(comparisons: Sequence[PairedComparison]) -> Figure:
     axes.axvline(0, color=GREY, linewidth=1)
     axes.set_yticks(range(len(shown)), [_label(c) for c in reversed(shown)])
     axes.set_ylim(-0.5, len(shown) - 0.3)
-    axes.set_xlabel("difference of lap times / s (negative: faster), mean and 95% interval")
+    axes.set_xlabel("difference of lap times / s (negative: faster)")
     tidy(axes, grid="x")
     return figure
 

@@ -1,5 +1,6 @@
 """Answers on a Likert scale as diverging bars: neutral in the middle, agreement to the right."""
 
+import textwrap
 from collections.abc import Sequence
 
 import matplotlib as mpl
@@ -10,6 +11,9 @@ from matplotlib.figure import Figure
 
 from analysis.figures.style import GREY, LIGHT, new_figure, say_nothing_to_show, tidy
 from protocols.instrument import Instrument
+
+_LINE = 62
+"""Characters of an item's words per line."""
 
 
 def likert_figure(table: pd.DataFrame, instrument: Instrument) -> Figure:
@@ -23,7 +27,7 @@ def likert_figure(table: pd.DataFrame, instrument: Instrument) -> Figure:
         The questionnaire: its scale and items.
     """
     rows = table[table["answered"] > 0]
-    figure = new_figure(1.2 + 0.24 * len(rows) + 0.2 * rows["item"].nunique())
+    figure = new_figure(1.2 + 0.24 * len(rows) + 0.15 * sum(_words(rows).str.count("\n") + 2))
     if rows.empty:
         return say_nothing_to_show(figure, f"{instrument.title}: nothing was answered.")
     axes = figure.subplots()
@@ -33,7 +37,7 @@ def likert_figure(table: pd.DataFrame, instrument: Instrument) -> Figure:
     axes.axvline(0, color=GREY, linewidth=0.8)
     axes.set_yticks(places, list(rows["condition"]), fontsize=8)
     _item_names(axes, rows, places)
-    axes.set_ylim(max(places) + 0.8, min(places) - 0.9)
+    axes.set_ylim(max(places) + 0.8, -0.3)
     axes.set_xlim(-105, 105)
     ticks = range(-100, 101, 50)
     axes.set_xticks(ticks, [f"{abs(t)}%" for t in ticks])
@@ -46,8 +50,17 @@ def likert_figure(table: pd.DataFrame, instrument: Instrument) -> Figure:
 
 def _places(rows: pd.DataFrame) -> list[float]:
     """Return each row's height: one below the other, with a gap between items."""
+    lines = _words(rows).str.count("\n") + 1
     new_item = (rows["item"] != rows["item"].shift()).to_numpy()
-    return [float(i + 0.9 * k) for i, k in enumerate(np.cumsum(new_item))]
+    gap = np.cumsum(new_item * (0.3 + 0.65 * lines.loc[rows["item"]].to_numpy()))
+    return [float(i + above) for i, above in enumerate(gap)]
+
+
+def _words(rows: pd.DataFrame) -> pd.Series:
+    """Return each item's words, broken into lines, by item."""
+    items = rows.drop_duplicates("item").set_index("item")["text"]
+    broken = [textwrap.fill(f"{item}  {text}", _LINE) for item, text in items.items()]
+    return pd.Series(broken, index=items.index, dtype=str)
 
 
 def _shades(points: int) -> list[str]:
@@ -81,7 +94,7 @@ def _bars(
 
 def _item_names(axes: Axes, rows: pd.DataFrame, places: Sequence[float]) -> None:
     """Write each item's words above its bars."""
-    for (item, text), group in rows.assign(place=places).groupby(["item", "text"], sort=False):
-        words = str(text) if len(str(text)) <= 88 else f"{str(text)[:85]}..."
-        axes.text(-104, float(group["place"].min()) - 0.62, f"{item}  {words}", fontsize=8,
-                  va="bottom", fontweight="bold")  # fmt: skip
+    tops = rows.assign(place=places).groupby("item", sort=False)["place"].min()
+    for item, words in _words(rows).items():
+        axes.text(-104, float(tops[str(item)]) - 0.6, words, fontsize=8, va="bottom",
+                  fontweight="bold", linespacing=1.05)  # fmt: skip

@@ -25,7 +25,7 @@ def model_figure(
     parts
         The study's conditions; those with a model's predictions are drawn.
     """
-    figure = new_figure(3.3, 7.0)
+    figure = new_figure(3.2, 6.2)
     known = measures.dropna(subset=["when_auc"])
     shown = [part for part in parts if part.condition in set(known["condition"])]
     if not shown:

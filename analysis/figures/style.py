@@ -20,7 +20,7 @@ ROLE_COLOURS: dict[Role, str] = {
 }
 _FURTHER = (VERMILLION, PURPLE, SKY, BLACK)
 
-WIDTH = 6.4
+WIDTH = 5.6
 """Width of a figure, inches."""
 
 

@@ -30,10 +30,10 @@ def answer_section(results: StudyResults) -> Section:
 
 def _chosen(results: StudyResults) -> tuple[PairedComparison, ...]:
     """Return the declared comparisons of lap times; undeclared ones with help when none is."""
-    declared = tuple(c for c in results.declared if c.outcome == "lap_time_s")
-    if declared:
-        return declared
     helped = {p.condition for p in results.frames.parts if p.role in ("demonstrator", "model")}
+    declared = [c for c in results.declared if c.outcome == "lap_time_s"]
+    if declared:  # what helped comes first, in the protocol's order otherwise
+        return tuple(sorted(declared, key=lambda c: c.condition not in helped))
     reference = yardstick(results.frames.parts)
     return tuple(c for c in results.lap_times if c.condition in helped and c.reference == reference)
 
@@ -51,15 +51,15 @@ def _fact(results: StudyResults, c: PairedComparison) -> Fact:
 
 
 def _sentence(c: PairedComparison) -> str:
-    kind = "Confirmatory" if c.kind == "confirmatory" else "Exploratory"
-    start = f"{kind}, {c.name}: "
+    kind = c.kind if c.declared else "not declared"
+    start = f"{c.name[0].upper()}{c.name[1:]} ({kind}): "
     if c.difference is None or not c.difference.computed:
         return f"{start}cannot be computed: {_why_not(c)}."
     ratio = c.ratio_of_means
-    speedup = "" if ratio is None else f" ({percent(100 * ratio.estimate)} speedup)"
+    speedup = "" if ratio is None else f" (a ratio of {percent(100 * ratio.estimate)})"
     text = (
-        f"{start}{c.condition} {number(c.mean_condition)} s against {c.reference} "
-        f"{number(c.mean_reference)} s{speedup}; mean difference "
+        f"{start}{c.reference} {number(c.mean_reference)} s, {c.condition} "
+        f"{number(c.mean_condition)} s{speedup}; mean difference "
         f"{number(c.difference.estimate)} s, 95% interval "
         f"{interval(c.difference.low, c.difference.high)} s; n = {count(c.complete)}"
         f"{_missing(c)}; {_p(c)}. {_verdict(c)}"
@@ -78,7 +78,7 @@ def _verdict(c: PairedComparison) -> str:
     if not math.isfinite(p) or p >= ALPHA:
         return "No difference is shown; that is not the same as no difference."
     faster = c.signed_rank.estimate < 0
-    return f"{c.condition} is {'faster' if faster else 'slower'} than {c.reference}."
+    return f"Laps of {c.condition} are {'faster' if faster else 'slower'} than of {c.reference}."
 
 
 def _p(c: PairedComparison) -> str:

@@ -1,5 +1,7 @@
 """The questionnaires."""
 
+import pandas as pd
+
 from analysis.comparisons import PairedComparison
 from analysis.figures.likert import likert_figure
 from analysis.report.blocks import Block, Paragraph, Picture, Section, Shown, table
@@ -44,9 +46,10 @@ def _instrument(results: StudyResults, survey: SurveyResults) -> list[Block]:
     helpers = _between_helpers(results.frames.parts, survey.comparisons)
     if helpers:
         blocks.append(
-            table(f"items_{instrument.name}", f"Exploratory: {helpers[0].name}, item by item. "
+            table(f"items_{instrument.name}", f"Exploratory: {helpers[0].condition} (condition) "
+                  f"against {helpers[0].reference} (reference), item by item. "
                   "Wilcoxon signed-rank, exact, mid-ranks, zeros after Pratt; p not corrected.",
-                  comparison_table(helpers), _TESTS)
+                  _with_agreement(helpers, answers), [_TESTS[0], *_AGREEMENT, *_TESTS[3:]])
         )  # fmt: skip
     others = [c for c in survey.comparisons if c not in helpers]
     if others:
@@ -66,6 +69,17 @@ def _between_helpers(
     return [c for c in comparisons if {c.condition, c.reference} == pair]
 
 
+def _with_agreement(comparisons: list[PairedComparison], answers: pd.DataFrame) -> pd.DataFrame:
+    """Return the tests with the agreement in both conditions, in percent."""
+    agreeing = answers.set_index(["item", "condition"])["agree_percent"]
+    frame = comparison_table(comparisons)
+    items = [str(outcome).rpartition(".")[2] for outcome in frame["outcome"]]
+    for side in ("condition", "reference"):
+        pairs = zip(items, frame[side], strict=True)
+        frame[f"agree_percent_{side}"] = [float(agreeing[pair]) for pair in pairs]
+    return frame
+
+
 def _said(survey: SurveyResults) -> str:
     return "; ".join(
         f"{row['item']} {row['condition']} {percent(row['agree_percent'])} agree"
@@ -81,6 +95,10 @@ _ANSWERS = [
     Shown("missing", lambda r: count(r["missing"])),
     Shown("median", lambda r: number(r["median"])),
     Shown("agree", lambda r: percent(r["agree_percent"])),
+]
+_AGREEMENT = [
+    Shown("agree: reference", lambda r: percent(r["agree_percent_reference"])),
+    Shown("agree: condition", lambda r: percent(r["agree_percent_condition"])),
 ]
 _TESTS = [
     Shown("item", lambda r: r["outcome"].rpartition(".")[2], words=True),
