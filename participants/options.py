@@ -46,7 +46,7 @@ def read_options(who: str, kind: type[Given], given: Mapping[str, Any]) -> Given
 
 def _fault(who: str, kind: type[Options], item: Any) -> str:
     where = ".".join(str(part) for part in item["loc"])
-    if item["type"] == "extra_forbidden":
+    if item["type"] == "extra_forbidden" and len(item["loc"]) == 1:
         allowed = ", ".join(kind.model_fields) or "it takes no options"
         return f"{who}: option {where!r} does not exist; allowed: {allowed}"
     return f"{who}: option {where!r}: {item['msg']} (given {item['input']!r})"

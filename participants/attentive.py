@@ -1,0 +1,139 @@
+"""A demonstrator who watches the sharp right turns, and helps nowhere else.
+
+The lead author's part in the study (section IV.B): control is taken over during the right turns
+at R1 and R2. On any course these are the sections labelled ``sharp_right``.
+"""
+
+import math
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from lad.assistant import NO_ASSISTANCE, Assistance
+from participants.helping_hand import HelpingHand
+from participants.options import Options, read_options
+from participants.setup import DemonstratorSetup
+from participants.sight import Sight
+from protocols.course.centreline import Centreline, Stretch
+from protocols.course.schema import Course
+
+EARLIEST = 0.8
+"""A turn may begin this far before the corner's section, m."""
+
+LATEST = 1.2
+"""No help is given farther past the corner's section than this, m."""
+
+TURNING = -0.1
+"""A stick or a chair that turns right faster than this shows that the turn has begun, rad/s."""
+
+STILL_TO_TURN = math.radians(40)
+"""Help begins only while the chair must turn right by more than this, rad."""
+
+ALIGNED = math.radians(12)
+"""It ends when the chair points along the next leg within this, rad."""
+
+LEG = 1.0
+"""The next leg is looked at this far past the corner, m."""
+
+
+class AttentiveOptions(Options):
+    """What a protocol may say about an attentive demonstrator.
+
+    Attributes
+    ----------
+    reaction_s
+        Median time from the beginning of a turn to the takeover, s.
+    reaction_spread
+        Standard deviation of its logarithm, between interventions.
+    """
+
+    reaction_s: Annotated[float, Field(ge=0.0, le=3.0)] = 0.4
+    reaction_spread: Annotated[float, Field(ge=0.0, le=1.0)] = 0.25
+
+
+class AttentiveDemonstrator:
+    """Takes over at sharp right turns, after a reaction time, and hands back once aligned.
+
+    What it does follows from what it sees alone, not from whether its command counts: as a shadow
+    it goes on wanting to help until the chair is through the turn, whoever turns it.
+
+    Parameters
+    ----------
+    course
+        The course.
+    options
+        How fast it reacts.
+    rng
+        Its random numbers; each lap gets a child of its own.
+    """
+
+    def __init__(self, course: Course, options: AttentiveOptions, rng: np.random.Generator) -> None:
+        self._line = Centreline(course)
+        self._options = options
+        self._rng = rng
+        self._corners = tuple(s for s in self._line.sections if s.kind == "sharp_right")
+        self.start_lap()
+
+    def start_lap(self) -> None:
+        """Watch a new lap."""
+        (self._lap_rng,) = self._rng.spawn(1)
+        self._arc: float | None = None
+        self._sight: Sight | None = None
+        self._acts_at: float | None = None
+        self._hand: HelpingHand | None = None
+
+    def look(self, sight: Sight) -> None:
+        """See the room."""
+        self._sight = sight
+        self._arc, _ = self._line.locate(sight.pose.x, sight.pose.y, self._arc)
+
+    def assist(self, x: NDArray[np.float64]) -> Assistance:
+        """Say whether to help now, and how; only the user's stick is read from ``x``."""
+        if self._sight is None or self._arc is None:
+            return NO_ASSISTANCE
+        corner = self._corner_at(self._arc)
+        if corner is None or not self._wants_to_help(corner, self._sight, float(x[1])):
+            self._acts_at, self._hand = None, None
+            return NO_ASSISTANCE
+        if self._acts_at is None:
+            self._acts_at = self._sight.t + self._reaction()
+        if self._sight.t < self._acts_at:
+            return NO_ASSISTANCE
+        if self._hand is None:
+            self._hand = HelpingHand(self._line, corner, self._lap_rng)
+        return Assistance(helping=True, command=self._hand.steer(self._sight, self._arc))
+
+    def _corner_at(self, arc: float) -> Stretch | None:
+        near = (c for c in self._corners if c.start - EARLIEST <= arc <= c.end + LATEST)
+        return next(near, None)
+
+    def _wants_to_help(self, corner: Stretch, sight: Sight, stick: float) -> bool:
+        to_turn, off = self._through(corner, sight)
+        if self._acts_at is not None:
+            return to_turn > ALIGNED or off > 2 * ALIGNED
+        begun = self._reached(corner) or min(stick, sight.velocity.w) < TURNING
+        return begun and to_turn > STILL_TO_TURN
+
+    def _reached(self, corner: Stretch) -> bool:
+        return self._arc is not None and self._arc >= corner.start
+
+    def _through(self, corner: Stretch, sight: Sight) -> tuple[float, float]:
+        """Return how far right the chair must turn to point along the next leg, and towards it."""
+        leg = self._line.point(corner.end + LEG)
+        towards = math.atan2(leg.y - sight.pose.y, leg.x - sight.pose.x)
+        return (
+            math.remainder(sight.pose.heading - leg.heading, math.tau),
+            math.remainder(sight.pose.heading - towards, math.tau),
+        )
+
+    def _reaction(self) -> float:
+        noise = self._options.reaction_spread * float(self._lap_rng.normal())
+        return self._options.reaction_s * math.exp(noise)
+
+
+def attentive_demonstrator(setup: DemonstratorSetup) -> AttentiveDemonstrator:
+    """Return an attentive demonstrator for a course; see ``AttentiveOptions``."""
+    options = read_options("demonstrator 'attentive'", AttentiveOptions, setup.options)
+    return AttentiveDemonstrator(setup.course, options, setup.rng)
