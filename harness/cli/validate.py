@@ -5,6 +5,7 @@ from typing import Annotated
 import typer
 
 from harness.cli.console import say
+from protocols.course.schema import Course
 from protocols.load import check_file
 from protocols.resolved import ResolvedStudy
 
@@ -28,4 +29,5 @@ def validate(
             f"{len(protocol.laps)} laps on {checked.course.name}"
         )
     else:
-        say(f"{file}: a {type(checked).__name__.lower()}: {checked.title}")
+        kind = "course" if isinstance(checked, Course) else "questionnaire"
+        say(f"{file}: a {kind}: {checked.title}")
