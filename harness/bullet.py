@@ -230,6 +230,8 @@ class BulletRays:
     def __init__(self, boxes: Sequence[Box]) -> None:
         self._client = _connect()
         self._close = weakref.finalize(self, pybullet.disconnect, self._client)
+        if not boxes:
+            return
         vertices, indices = _mesh(boxes)
         shape = pybullet.createCollisionShape(
             pybullet.GEOM_MESH,

@@ -12,10 +12,7 @@ from protocols import wheelchair
 from protocols.course.obstacles import Box
 from protocols.pose import Pose
 
-AHEAD = (wheelchair.FRONT - wheelchair.REAR) / 2
-"""The footprint's centre ahead of the driven axle, m."""
-
-HALF_LENGTH = (wheelchair.FRONT + wheelchair.REAR) / 2
+FRONT, REAR = wheelchair.FRONT, wheelchair.REAR
 HALF_WIDTH = wheelchair.WIDTH / 2
 
 FAR = 1e3
@@ -54,18 +51,25 @@ def clearance(table: NDArray[np.float64], pose: Pose) -> float:
     float
         In m; negative by how far they overlap: the shortest shift that would part them.
     """
+    return stretched_clearance(table, pose, FRONT, REAR)  # type: ignore[no-any-return]
+
+
+@compiled
+def stretched_clearance(table: Any, pose: Any, front: float, rear: float) -> Any:
+    """Return the clearance of a footprint that reaches farther ahead or behind than the chair."""
     cos, sin = math.cos(pose[2]), math.sin(pose[2])
-    x, y = pose[0] + AHEAD * cos, pose[1] + AHEAD * sin
+    ahead = (front - rear) / 2
+    chair = (pose[0] + ahead * cos, pose[1] + ahead * sin, cos, sin, (front + rear) / 2)
     best = FAR
     for k in range(len(table)):
-        best = min(best, _gap(table[k], (x, y, cos, sin), best))
+        best = min(best, _gap(table[k], chair, best))
     return best
 
 
 @compiled
 def _gap(box: Any, chair: Any, enough: float) -> Any:
     """Signed distance of two rectangles; anything above ``enough`` when it is no less."""
-    x, y, cos, sin = chair
+    x, y, cos, sin, half = chair
     dx, dy = box[0] - x, box[1] - y
     px, py = dx * cos + dy * sin, dy * cos - dx * sin
     ux, uy = box[2] * cos + box[3] * sin, box[3] * cos - box[2] * sin
@@ -74,10 +78,10 @@ def _gap(box: Any, chair: Any, enough: float) -> Any:
     # The widest gap between the shadows on the four edge directions bounds the distance from
     # below, and is the depth of the overlap when no direction parts them.
     apart = max(
-        abs(px) - HALF_LENGTH - length * abs(ux) - width * abs(uy),
+        abs(px) - half - length * abs(ux) - width * abs(uy),
         abs(py) - HALF_WIDTH - length * abs(uy) - width * abs(ux),
-        abs(along) - length - HALF_LENGTH * abs(ux) - HALF_WIDTH * abs(uy),
-        abs(across) - width - HALF_LENGTH * abs(uy) - HALF_WIDTH * abs(ux),
+        abs(along) - length - half * abs(ux) - HALF_WIDTH * abs(uy),
+        abs(across) - width - half * abs(uy) - HALF_WIDTH * abs(ux),
     )
     if apart <= 0.0 or apart >= enough:
         return apart
@@ -86,10 +90,10 @@ def _gap(box: Any, chair: Any, enough: float) -> Any:
     for i in range(4):
         a = 1.0 if i < 2 else -1.0
         b = 1.0 if i % 2 == 0 else -1.0
-        ex = abs(px + a * length * ux - b * width * uy) - HALF_LENGTH
+        ex = abs(px + a * length * ux - b * width * uy) - half
         ey = abs(py + a * length * uy + b * width * ux) - HALF_WIDTH
         square = min(square, max(ex, 0.0) ** 2 + max(ey, 0.0) ** 2)
-        ex = abs(a * HALF_LENGTH * ux + b * HALF_WIDTH * uy - along) - length
-        ey = abs(b * HALF_WIDTH * ux - a * HALF_LENGTH * uy - across) - width
+        ex = abs(a * half * ux + b * HALF_WIDTH * uy - along) - length
+        ey = abs(b * HALF_WIDTH * ux - a * half * uy - across) - width
         square = min(square, max(ex, 0.0) ** 2 + max(ey, 0.0) ** 2)
     return math.sqrt(square)

@@ -7,6 +7,11 @@ braked as hard as the controller allows, and all the while the footprint keeps i
 the commands that only take speed away, the admissible one nearest to what was asked is let
 through; the guard never steers and never speeds up.
 
+How much distance? Ahead, in the direction of travel, so much that after a stop the chair can
+still turn on the spot; everywhere else about a centimetre, so that narrow passages stay open and
+a tail may swing. Nearer than that already, a step may use up half of what is left, which lets
+one steer off a wall and yet never reaches it.
+
 ARTY sees all around with three scanners, so the guard gets the true distances to what stands
 around, not the one simulated scan.
 """
@@ -18,15 +23,21 @@ from typing import Any
 import numpy as np
 
 from harness.chair import within_limits
-from harness.clearance import AHEAD, HALF_LENGTH, HALF_WIDTH, box_table, clearance
+from harness.clearance import FRONT, HALF_WIDTH, REAR, box_table, clearance, stretched_clearance
 from lad.command import Command
 from lad.compiled import compiled
 from protocols.course.obstacles import Box
 from protocols.pose import Pose
 from protocols.wheelchair import ACCELERATION, MAX_SPEED, MAX_TURN_RATE, TURN_ACCELERATION
 
-MARGIN = 0.03
-"""Distance the guard keeps, m; where the chair is nearer already, it must not come nearer."""
+ROOM = math.hypot(FRONT, HALF_WIDTH) - FRONT
+"""Distance kept in the direction of travel beyond ``MARGIN``, m: room to turn after a stop."""
+
+MARGIN = 0.01
+"""Distance kept on all sides, m."""
+
+FLOOR = 0.002
+"""Distance below which the chair must not come nearer at all, m."""
 
 TOUCH = 1e-5
 """How much nearer counts as no nearer, m."""
@@ -34,13 +45,16 @@ TOUCH = 1e-5
 INTERVAL = 0.05
 """Longest time between two poses that are looked at, s."""
 
-SPEED_STEPS, TURN_STEPS = 10, 4
-"""In how many steps each velocity can be taken away."""
+TURN_SHARES = (1.0, 0.75, 0.5, 0.25, 0.125, 0.0)
+"""What may be left of a turn."""
 
-ARM = AHEAD + math.hypot(HALF_LENGTH, HALF_WIDTH)
+HALVINGS = 3
+"""How often the interval is halved in which the speed that may be kept is sought."""
+
+ARM = math.hypot(FRONT, HALF_WIDTH)
 """No point of the footprint is farther from the axle's midpoint, m."""
 
-SIGHT = ARM + MARGIN + 0.5 * MAX_SPEED + MAX_SPEED**2 / (2 * ACCELERATION)
+SIGHT = ARM + ROOM + MARGIN + 0.5 * MAX_SPEED + MAX_SPEED**2 / (2 * ACCELERATION)
 """How far away a box can matter at most, with control steps of up to 0.5 s, m."""
 
 
@@ -77,24 +91,39 @@ class Safeguard:
 @compiled
 def _guarded(table: Any, pose: Any, velocity: Any, asked: Any, period: float) -> Any:
     near = _nearby(table, pose)
-    now = clearance(near, pose)
-    keep = min(MARGIN, now - TOUCH)
     state = (pose[0], pose[1], pose[2], velocity[0], velocity[1])
-    if _admissible(near, state, asked, (period, now, keep)):
+    if _admissible(near, state, asked, period):
         return asked
-    if not _admissible(near, state, (0.0, 0.0), (period, now, keep)):
+    if not _admissible(near, state, (0.0, 0.0), period):
         return (0.0, 0.0)  # too late for anything but the brakes
-    tried = np.zeros((SPEED_STEPS + 1, TURN_STEPS + 1), dtype=np.bool_)
-    tried[0, 0] = True
-    tried[1:] = asked[0] == 0.0
-    tried[:, 1:] |= asked[1] == 0.0
-    while not tried.all():
-        i, j = _next(tried, asked)
-        tried[i, j] = True
-        less = (asked[0] * (1.0 - i / SPEED_STEPS), asked[1] * (1.0 - j / TURN_STEPS))
-        if _admissible(near, state, less, (period, now, keep)):
-            return less
-    return (0.0, 0.0)
+    best, least = (0.0, 0.0), np.inf
+    for share in TURN_SHARES:
+        turning = (1.0 - share) * abs(asked[1]) / MAX_TURN_RATE
+        if turning >= least or (share < 1.0 and asked[1] == 0.0):
+            break
+        speed = _speed_share(near, state, (asked[0], share * asked[1]), period)
+        lost = turning + (1.0 - speed) * abs(asked[0]) / MAX_SPEED
+        if speed >= 0.0 and lost < least:
+            best, least = (speed * asked[0], share * asked[1]), lost
+    return best
+
+
+@compiled
+def _speed_share(near: Any, state: Any, command: Any, period: float) -> float:
+    """Return what may be left of the speed at a turning rate; negative when nothing is safe."""
+    if _admissible(near, state, command, period):
+        return 1.0
+    if not _admissible(near, state, (0.0, command[1]), period):
+        # Sometimes the chair may not turn on the spot, but may while it drives out.
+        return 0.5 if _admissible(near, state, (0.5 * command[0], command[1]), period) else -1.0
+    safe, unsafe = 0.0, 1.0
+    for _ in range(HALVINGS):
+        middle = (safe + unsafe) / 2
+        if _admissible(near, state, (middle * command[0], command[1]), period):
+            safe = middle
+        else:
+            unsafe = middle
+    return safe
 
 
 @compiled
@@ -112,26 +141,21 @@ def _nearby(table: Any, pose: Any) -> Any:
 
 
 @compiled
-def _next(tried: Any, asked: Any) -> Any:
-    """Return the untried command nearest to what was asked, each velocity in its own range."""
-    best, i_best, j_best = np.inf, 0, 0
-    for i in range(SPEED_STEPS + 1):
-        for j in range(TURN_STEPS + 1):
-            lost = (
-                abs(asked[0]) / MAX_SPEED * i / SPEED_STEPS
-                + abs(asked[1]) / MAX_TURN_RATE * j / TURN_STEPS
-            )
-            if not tried[i, j] and lost < best:
-                best, i_best, j_best = lost, i, j
-    return i_best, j_best
+def _kept(now: float) -> float:
+    """Return the distance that must be kept, given what there is now."""
+    return max(min(now / 2, MARGIN), FLOOR) if now > FLOOR else now - TOUCH
 
 
 @compiled
-def _admissible(near: Any, state: Any, command: Any, rule: Any) -> bool:
+def _admissible(near: Any, state: Any, command: Any, period: float) -> bool:
     """Whether the chair keeps its distance for one step and until it stands."""
     x, y, heading, v, w = state
-    period, now, keep = rule
-    spare = now - keep
+    front = FRONT + (ROOM if command[0] > 0.0 else 0.0)
+    rear = REAR + (ROOM if command[0] < 0.0 else 0.0)
+    now = clearance(near, Pose(x, y, heading))
+    now_ahead = stretched_clearance(near, Pose(x, y, heading), front, rear)
+    keep, keep_ahead = _kept(now), _kept(now_ahead)
+    spare = min(now - keep, now_ahead - keep_ahead)
     steps = math.ceil(period / INTERVAL)
     dt = period / steps
     k = 0
@@ -147,9 +171,13 @@ def _admissible(near: Any, state: Any, command: Any, rule: Any) -> bool:
         v, w = v_next, w_next
         k += 1
         # As long as it cannot have come too near, there is no need to look.
-        spare -= (abs(v_mean) + abs(w_mean) * ARM) * dt
+        spare -= (abs(v_mean) + abs(w_mean) * (ARM + ROOM)) * dt
         if spare < 0.0:
-            spare = clearance(near, Pose(x, y, heading)) - keep
+            ahead = stretched_clearance(near, Pose(x, y, heading), front, rear)
+            spare = ahead - max(keep, keep_ahead)
+            if spare < 0.0:  # the chair itself is never nearer than what it is stretched to
+                own = ahead if command[0] == 0.0 else clearance(near, Pose(x, y, heading))
+                spare = min(ahead - keep_ahead, own - keep)
             if spare < 0.0:
                 return False
     return True
