@@ -2,6 +2,7 @@
 
 import sys
 from importlib.metadata import version
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -54,8 +55,9 @@ app.command("show")(listing.show)
 
 def main() -> None:
     """Run the command line and exit with its code."""
+    sys.path.append(str(Path.cwd()))  # last, so that a folder there cannot hide what is installed
     try:
-        code = app(standalone_mode=False)
+        code = app(prog_name="lad-study", standalone_mode=False)
     except InputError as fault:
         code = _say(str(fault), 2)
     except TyperException as fault:

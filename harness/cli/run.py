@@ -17,6 +17,7 @@ from rich.progress import (
 from harness.cli.console import ERR, progress_line, say
 from harness.cli.table import print_lap_times
 from harness.plan import Plan
+from protocols.errors import InputError
 from protocols.load import resolve_study
 
 if TYPE_CHECKING:  # at run time, only a run may load PyBullet
@@ -28,15 +29,15 @@ def run(
         str, typer.Argument(metavar="[PROTOCOL]", help="A shipped protocol's name, or a file.")
     ] = "four-lap",
     participants: Annotated[
-        int | None, typer.Option(min=1, max=9999, help="In place of the protocol's own number.")
+        int | None, typer.Option(help="1 to 9999, in place of the protocol's own number.")
     ] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Same seed, same bytes.")] = 0,
+    seed: Annotated[int, typer.Option(help="0 or more. Same seed, same bytes.")] = 0,
     out: Annotated[
         Path | None,
         typer.Option(help="Study directory.  [default: studies/PROTOCOL-seedSEED]"),
     ] = None,
     jobs: Annotated[
-        int, typer.Option(min=1, max=1024, help="Processes.", show_default="all cores")
+        int, typer.Option(help="Processes, 1 or more.", show_default="all cores")
     ] = os.cpu_count() or 1,
     scheduler: Annotated[
         str | None,
@@ -57,6 +58,8 @@ def run(
 
     Example: lad-study run four-lap --participants 24 --seed 3 --out studies/pilot
     """
+    _check("--seed", seed, 0)
+    _check("--jobs", jobs, 1)
     study = resolve_study(protocol, course=course, participants=participants)
     folder = out or Path("studies") / f"{study.protocol.name}-seed{seed}"
     outcome = _run_with_progress(Plan(study, seed), folder, jobs, scheduler, retry_failed)
@@ -75,6 +78,11 @@ def run(
     return 0
 
 
+def _check(option: str, value: int, least: int) -> None:
+    if value < least:
+        raise InputError(f"{option}: {value} is out of range; allowed: {least} or more")
+
+
 def _run_with_progress(
     plan: Plan, folder: Path, jobs: int, scheduler: str | None, retry_failed: bool
 ) -> "Outcome":
@@ -88,16 +96,19 @@ def _run_with_progress(
         TextColumn("left"),
         TimeRemainingColumn(),
     )
-    with Progress(*columns, console=ERR) as progress:
-        task = progress.add_task("Sessions", total=plan.study.protocol.cohort.participants)
-        return run_study(
-            plan,
-            folder,
-            jobs,
-            lambda ended, planned: progress.update(task, completed=ended, total=planned),
-            scheduler=scheduler,
-            retry_failed=retry_failed,
-        )
+    progress = Progress(*columns, console=ERR)
+
+    def tell(ended: int, planned: int) -> None:
+        if not progress.tasks:  # nothing is drawn before the input has been found right
+            progress.add_task("Sessions", total=planned)
+            progress.start()
+        progress.update(progress.tasks[0].id, completed=ended)
+
+    try:
+        return run_study(plan, folder, jobs, tell, scheduler=scheduler, retry_failed=retry_failed)
+    finally:
+        if progress.tasks:
+            progress.stop()
 
 
 def _report(folder: Path) -> None:

@@ -27,7 +27,7 @@ def files_below(folder):
         (["run", "for-lap"], ["for-lap", "four-lap"]),
         (["run", "--course", "moon"], ["moon", "lab-office"]),
         (["run", "--participants", "0"], ["participants", "0", "1"]),
-        (["run", "--participants", "many"], ["participants", "many"]),
+        (["run", "--participants", "many"], ["lad-study run", "--participants", "integer"]),
         (["run", "--seed", "-1"], ["seed", "-1", "0"]),
         (["run", "--jobs", "0"], ["jobs", "0", "1"]),
         (["run", "--sed", "1"], ["--sed", "--seed"]),
@@ -55,7 +55,7 @@ def test_one_line_and_exit_code_2(lad_study, tmp_path, arguments, parts):
     [
         ("baseline: {}", "baseline: {assistent: none}", [":5:", "assistent", "assistant"]),
         ("- condition: baseline", "- condition: basline", [":7:", "basline", "baseline"]),
-        ("title: A short study", "title: [", ["mine.yaml:3", "YAML"]),
+        ("title: A short study", "title: [", ["mine.yaml:", "YAML"]),
         (
             "title: A short study",
             "title: A short study\ncontrol_period_s: 7",
