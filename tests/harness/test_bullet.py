@@ -118,7 +118,7 @@ def test_the_chair_stands_on_its_four_wheels(chair):
 @pytest.mark.parametrize("thickness", [0.001, 0.1])
 @pytest.mark.parametrize("angle", [0.0, 0.4, 1.2])
 def test_walls_hold_at_top_speed(step, thickness, angle):
-    """Even a sheet of 1 mm stops the chair: it enters by less than 10 mm and never passes."""
+    """Even a sheet of 1 mm stops the chair: it enters by less than 13 mm and never passes."""
     wall = Box(1.5, 0.0, math.pi / 2 - angle, 8.0, thickness, 1.0, "sheet")
     chair = BulletChair([wall], step)
     chair.place(Pose(-0.5, 0.0, 0.0))
@@ -129,7 +129,7 @@ def test_walls_hold_at_top_speed(step, thickness, angle):
         chair.advance()
         touched = touched or chair.touching()
         pose = chair.pose()
-        assert clearance(table, pose) > -0.010
+        assert clearance(table, pose) > -0.013
         x, y = pose.x - 1.5, pose.y
         assert x * math.cos(angle) - y * math.sin(angle) < 0
     assert touched
