@@ -265,23 +265,28 @@ def draw(course: Course, path: Path) -> None:
     figure.savefig(path, dpi=80)
 
 
+def write(out: Path, layout: Layout = LAB_OFFICE) -> Course:
+    """Write a layout as the course lab-office; return the course."""
+    data = lay_out(
+        layout, "lab-office", "Lab office loop",
+        "A loop like Fig. 2 of Soh & Demiris (2014): from S through sharp right turns at R1 and "
+        "R2, and back to F through two soft right bends.",
+    )  # fmt: skip
+    yaml = YAML()
+    yaml.default_flow_style = None
+    yaml.width = 100
+    with out.open("w") as file:
+        yaml.dump(data, file)
+    return Course.model_validate(data)
+
+
 def main() -> None:
     """Write the course file and, on request, its picture."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
     parser.add_argument("--picture", type=Path)
     arguments = parser.parse_args()
-    data = lay_out(
-        LAB_OFFICE, "lab-office", "Lab office loop",
-        "A loop like Fig. 2 of Soh & Demiris (2014): from S through sharp right turns at R1 and "
-        "R2, and back to F through two soft right bends.",
-    )  # fmt: skip
-    course = Course.model_validate(data)
-    yaml = YAML()
-    yaml.default_flow_style = None
-    yaml.width = 100
-    with arguments.out.open("w") as file:
-        yaml.dump(data, file)
+    course = write(arguments.out)
     if arguments.picture:
         draw(course, arguments.picture)
     check_drivable(course)
