@@ -40,8 +40,8 @@ def approached(velocity: Command, target: Command, dt: float) -> Command:
 
     Examples
     --------
-    >>> approached(Command(0.0, 0.0), Command(0.7, -0.1), 0.1)
-    Command(v=0.07, w=-0.1)
+    >>> approached(Command(0.0, 0.0), Command(0.7, -0.1), 0.5)
+    Command(v=0.35, w=-0.1)
     """
     dv, dw = ACCELERATION * dt, TURN_ACCELERATION * dt
     return Command(
