@@ -14,6 +14,7 @@ from pydantic import Field
 from lad.assistant import NO_ASSISTANCE, Assistance
 from participants.helping_hand import HelpingHand
 from participants.options import Options, read_options
+from participants.planning.surroundings import known_raster
 from participants.setup import DemonstratorSetup
 from participants.sight import Sight
 from protocols.course.centreline import Centreline, Stretch
@@ -71,6 +72,7 @@ class AttentiveDemonstrator:
 
     def __init__(self, course: Course, options: AttentiveOptions, rng: np.random.Generator) -> None:
         self._line = Centreline(course)
+        self._raster = known_raster(course)
         self._options = options
         self._rng = rng
         self._corners = tuple(s for s in self._line.sections if s.kind == "sharp_right")
@@ -102,7 +104,7 @@ class AttentiveDemonstrator:
         if self._sight.t < self._acts_at:
             return NO_ASSISTANCE
         if self._hand is None:
-            self._hand = HelpingHand(self._line, corner, self._lap_rng)
+            self._hand = HelpingHand(self._line, corner, self._raster, self._lap_rng)
         return Assistance(helping=True, command=self._hand.steer(self._sight, self._arc))
 
     def _corner_at(self, arc: float) -> Stretch | None:

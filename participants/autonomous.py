@@ -4,38 +4,36 @@ import math
 
 import numpy as np
 
-from lad.command import STILL, Command
+from lad.command import Command
 from participants.dwa import DynamicWindow, choose
 from participants.options import NoOptions, read_options
 from participants.planning.field import scan_field
 from participants.planning.route import Route, plan
+from participants.planning.surroundings import known_raster
+from participants.recovery import Recovery
 from participants.setup import DriverSetup
 from participants.sight import Sight
-from participants.standstill import Standstill
+from protocols.course.occupancy import Occupancy
 
 LASER_RANGE = 4.0
 """Returns from here on are none, m."""
 
 PATIENCE = 1.0
-"""Standing still against its will for longer makes it back up, s."""
-
-BACKING = Command(-0.15, 0.0)
-"""How it backs up, m/s and rad/s."""
-
-BACKING_TIME = 1.5
-"""For how long, s."""
+"""Standing still against its will for longer makes it try something else, s."""
 
 
 class AutonomousDriver:
     """A navigation stack with a map and a laser.
 
     It plans anew in every step from what it sees, and does not know that its commands may be
-    scaled behind its back. Blocked, it backs up a little, as navigation stacks do.
+    scaled behind its back. Blocked, it tries small movements, as navigation stacks do.
 
     Parameters
     ----------
     route
         The global path.
+    raster
+        Its map.
     window
         Settings of the local planner.
     lookahead
@@ -43,35 +41,37 @@ class AutonomousDriver:
     """
 
     def __init__(
-        self, route: Route, window: DynamicWindow | None = None, lookahead: float = 0.9
+        self,
+        route: Route,
+        raster: Occupancy,
+        window: DynamicWindow | None = None,
+        lookahead: float = 0.9,
     ) -> None:
         self._route = route
+        self._raster = raster
         self._window = window if window is not None else DynamicWindow()
         self._lookahead = lookahead
         self._arc: float | None = None
-        self._standstill = Standstill()
-        self._backing_until = -math.inf
+        self._recovery = Recovery(self._raster, PATIENCE)
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:  # noqa: ARG002  # the seam's
         """Look for itself on the path anew."""
         self._arc = None
-        self._standstill = Standstill()
-        self._backing_until = -math.inf
+        self._recovery = Recovery(self._raster, PATIENCE)
 
     def act(self, sight: Sight) -> Command:
         """Choose the best velocities towards a point ahead on the path."""
-        if sight.t < self._backing_until:
-            return BACKING
         target = self._target(sight)
         field = scan_field(sight.ranges, sight.bearings, sight.laser, LASER_RANGE)
         choice = choose(field, sight.velocity, target, self._window)
-        # Wanting to move and finding nothing admissible is standing against one's will, too.
-        wish = choice.command if math.isfinite(choice.score) else BACKING
-        if self._standstill.notice(sight.t, sight.velocity, wish) > PATIENCE:
-            self._standstill = Standstill()
-            self._backing_until = sight.t + BACKING_TIME
-            return BACKING
-        return choice.command if math.isfinite(choice.score) else STILL
+        error = math.atan2(target[1], target[0])
+        # It never wants to stand: finding nothing admissible is being stuck, too.
+        wanted = Command(1.0, 0.0)
+        if sight.helped:
+            self._recovery.helped()
+            return choice.command
+        free = self._recovery.movement(sight, wanted, error)
+        return choice.command if free is None else free
 
     def _target(self, sight: Sight) -> tuple[float, float]:
         """Return the point ahead on the path in the chair's frame, m."""
@@ -86,4 +86,4 @@ class AutonomousDriver:
 def autonomous_driver(setup: DriverSetup) -> AutonomousDriver:
     """Return the autonomous driver for a course; it takes no options."""
     read_options("driver 'autonomous'", NoOptions, setup.options)
-    return AutonomousDriver(plan(setup.course))
+    return AutonomousDriver(plan(setup.course), known_raster(setup.course))

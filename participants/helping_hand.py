@@ -4,13 +4,14 @@ import math
 
 import numpy as np
 
-from lad.command import STILL, Command
+from lad.command import Command
 from participants.human.caution import slowed
 from participants.human.hand import Hand
 from participants.planning.field import scan_field
+from participants.recovery import Recovery
 from participants.sight import Sight
-from participants.standstill import Standstill
 from protocols.course.centreline import Centreline, Stretch
+from protocols.course.occupancy import Occupancy
 from protocols.wheelchair import MAX_TURN_RATE
 
 LASER_RANGE = 4.0
@@ -31,11 +32,8 @@ MARGIN = 0.1
 FIRMLY = 2.0
 """A full turn is pushed for beyond the stick's end, so that it does not tremble."""
 
-PATIENCE, BACKING_TIME = 1.0, 1.0
-"""Standing still against its will for longer makes it back up, s, and for how long, s."""
-
-BACKING = Command(-0.15, 0.0)
-"""How it backs up, m/s and rad/s."""
+PATIENCE = 1.0
+"""Standing still against its will for longer makes it try something else, s."""
 
 LAG, NOISE = 0.12, 0.06
 """Those of a person's hand: the stick's time constant in s, and the noise's share."""
@@ -50,20 +48,22 @@ class HelpingHand:
         The course's centreline.
     corner
         The corner to get through.
+    raster
+        What stands where.
     rng
         Random numbers of the hand.
     """
 
-    def __init__(self, line: Centreline, corner: Stretch, rng: np.random.Generator) -> None:
+    def __init__(
+        self, line: Centreline, corner: Stretch, raster: Occupancy, rng: np.random.Generator
+    ) -> None:
         self._line = line
         turn = line.point(corner.end).heading - line.point(corner.start).heading
         radius = (corner.end - corner.start) / max(abs(math.remainder(turn, math.tau)), 0.1)
         # As fast as the corner can be driven while turning as fast as the chair can.
         self._speed = min(max(radius * MAX_TURN_RATE, SLOWEST), FASTEST)
         self._hand = Hand(LAG, NOISE, rng)
-        self._standstill = Standstill()
-        self._wanted = STILL
-        self._backing_until = -math.inf
+        self._recovery = Recovery(raster, PATIENCE)
         self._t: float | None = None
 
     def steer(self, sight: Sight, arc: float) -> Command:
@@ -78,24 +78,21 @@ class HelpingHand:
         """
         passed = LAG if self._t is None else sight.t - self._t
         self._t = sight.t
-        self._wanted = self._wish(sight, arc)
-        if sight.t < self._backing_until:
-            return self._hand.move(BACKING, passed)
+        wish, error = self._wish(sight, arc)
         # A shadow's will moves nothing: only who drives can be stuck.
-        stands = self._standstill.notice(sight.t, sight.velocity, self._wanted)
-        if sight.helped and stands > PATIENCE:
-            self._standstill = Standstill()
-            self._backing_until = sight.t + BACKING_TIME
-            return self._hand.move(BACKING, passed)
+        if sight.helped:
+            free = self._recovery.movement(sight, wish, error)
+            if free is not None:
+                return self._hand.move(free, passed)
         field = scan_field(sight.ranges, sight.bearings, sight.laser, LASER_RANGE)
-        careful = slowed(field, self._wanted, MARGIN)
+        careful = slowed(field, wish, MARGIN)
         firm = FIRMLY if abs(careful.w) == MAX_TURN_RATE else 1.0
         return self._hand.move(Command(careful.v, firm * careful.w), passed)
 
-    def _wish(self, sight: Sight, arc: float) -> Command:
-        """Return what it would have the chair do on a free floor."""
+    def _wish(self, sight: Sight, arc: float) -> tuple[Command, float]:
+        """Return what it would have the chair do on a free floor, and the direction error."""
         aim = self._line.point(arc + AHEAD)
         towards = math.atan2(aim.y - sight.pose.y, aim.x - sight.pose.x)
         error = math.remainder(towards - sight.pose.heading, math.tau)
         w = min(max(GAIN * error, -MAX_TURN_RATE), MAX_TURN_RATE)
-        return Command(self._speed, w)
+        return Command(self._speed, w), error

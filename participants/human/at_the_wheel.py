@@ -9,15 +9,13 @@ from participants.human.authority import Authority
 from participants.human.caution import slowed
 from participants.human.corners import Corner
 from participants.human.hand import Hand
-from participants.human.manoeuvre import Manoeuvre, get_free
 from participants.human.perception import DelayedView
 from participants.human.practice import Skill
 from participants.human.room import KnownRoom
 from participants.human.steering import Situation, aim, aiming_distance, intend
 from participants.planning.field import scan_field
-from participants.planning.surroundings import map_field
+from participants.recovery import Recovery
 from participants.sight import Sight
-from participants.standstill import Standstill
 from participants.traits import Traits
 
 LASER_RANGE = 4.0
@@ -64,15 +62,13 @@ class AtTheWheel:
         self._room = room
         self._view = DelayedView(traits.reaction_delay_s)
         self._hand = Hand(traits.stick_lag_s, traits.motor_noise, rng)
-        self._standstill = Standstill()
+        self._recovery = Recovery(room.raster, PATIENCE)
         self._t: float | None = None
         self._arc: float | None = None
         self._stick = STILL
         self._wanted = STILL
         self._held = 1.0
         self._hesitations: dict[Corner, float] = {}
-        self._busy: Manoeuvre | None = None
-        self._busy_until = -math.inf
 
     def act(self, sight: Sight) -> Command:
         """Move the stick."""
@@ -81,7 +77,7 @@ class AtTheWheel:
         view = self._view.see(sight)
         self._authority.feel(self._stick, sight.velocity, passed, trusted=not sight.helped)
         situation = self._situation(view)
-        intention = self._getting_free(sight, view, situation.error)
+        intention = self._getting_free(sight, situation.error)
         if intention is None:
             intention = self._driving(view, situation)
         # Somebody else drives: one gives up a part of the deflection, and takes it back later.
@@ -120,17 +116,9 @@ class AtTheWheel:
         until = self._hesitations.setdefault(corner, view.t + self._skill.pause)
         return view.t < until
 
-    def _getting_free(self, sight: Sight, view: Sight, error: float) -> Command | None:
+    def _getting_free(self, sight: Sight, error: float) -> Command | None:
         """Return the movement one is trying because nothing else worked, if any."""
-        if self._busy is not None and sight.t < self._busy_until and not sight.helped:
-            return self._busy.command
-        tried = self._wanted
-        stuck = self._standstill.notice(sight.t, sight.velocity, tried) > PATIENCE
-        self._busy = None
-        if stuck and not sight.helped:
-            field = map_field(self._room.raster, view.pose)
-            self._busy = get_free(field, error, self._authority, tried)
-            self._busy_until = sight.t + self._busy.seconds
-            self._standstill = Standstill()
-            return self._busy.command
-        return None
+        if sight.helped:
+            self._recovery.helped()
+            return None
+        return self._recovery.movement(sight, self._wanted, error, self._authority.of)

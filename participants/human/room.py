@@ -7,7 +7,8 @@ import numpy as np
 
 from participants.human.corners import sharp_corners
 from participants.planning.route import Route, plan
-from protocols.course.occupancy import Occupancy, occupancy
+from participants.planning.surroundings import known_raster
+from protocols.course.occupancy import Occupancy
 from protocols.course.schema import Course
 from protocols.pose import Pose
 from protocols.wheelchair import WIDTH
@@ -47,4 +48,4 @@ class KnownRoom:
 @lru_cache(maxsize=16)
 def known_room(course: Course) -> KnownRoom:
     """Return a course as a person knows it, worked out once for each course."""
-    return KnownRoom(plan(course), occupancy(course))
+    return KnownRoom(plan(course), known_raster(course))

@@ -1,14 +1,22 @@
 """What stands around the chair, also where its laser does not look."""
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
 from participants.planning.field import ASIDE, BEHIND, CELL, COLUMNS, FAR, ROWS
-from protocols.course.occupancy import Occupancy
+from protocols.course.occupancy import Occupancy, occupancy
+from protocols.course.schema import Course
 from protocols.pose import Pose
+
+
+@lru_cache(maxsize=16)
+def known_raster(course: Course) -> Occupancy:
+    """Return a course's raster as everybody who knows the room has it, made once."""
+    return occupancy(course)
 
 
 def map_field(raster: Occupancy, pose: Pose) -> NDArray[np.float64]:

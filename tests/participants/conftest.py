@@ -129,10 +129,11 @@ class Room:
         limitation: Callable = lambda c: c,
         helping=True,
         limit_s=300.0,
+        pose=None,
     ) -> DrivenLap:
-        """Drive one lap; ``helping`` false makes a shadow of the helper."""
+        """Drive one lap, from the start or a pose; ``helping`` false makes a shadow."""
         start = self.course.start
-        self.pose, self.velocity = Pose(start.x, start.y, start.heading), STILL
+        self.pose, self.velocity = pose or Pose(start.x, start.y, start.heading), STILL
         gates, lap = GateCounter(self.course), DrivenLap()
         helped, intent, arc, touching, t = False, STILL, None, False, 0.0
         if helper is not None:
