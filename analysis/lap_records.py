@@ -59,7 +59,9 @@ def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None
         rows.append({**where, "completed": bool(completed), **measured})
     names = [m.name for m in MEASURES]
     columns = ["participant", "lap", "condition", "completed", *names]
-    measures = pd.DataFrame(rows, columns=columns).astype(dict.fromkeys(names, "float64"))
+    measures = pd.DataFrame(rows, columns=columns).astype(
+        {**dict.fromkeys(names, "float64"), "completed": "bool"}
+    )
     return LapRecords(measures, _together(pooled), without)
 
 

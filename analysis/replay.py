@@ -66,6 +66,9 @@ def write_replay(
         When there is no such study, participant or lap, its steps are damaged, or the file cannot
         be written.
     """
+    out = Path(out)
+    if not out.parent.is_dir():
+        raise InputError(f"{out}: cannot be written: {out.parent}: no such folder")
     study = open_study(Path(study_dir))
     steps = as_frame(study.steps(participant, lap))
     if len(steps) < 2:
@@ -74,7 +77,7 @@ def write_replay(
     title = f"{participant}, lap {lap}: {condition}"
     frames = _drawn(_Stage(study.course, steps, title), progress or (lambda _: None))
     try:
-        write_whole(Path(out), _gif(frames, EVERY * period(steps) / SPEED))
+        write_whole(out, _gif(frames, EVERY * period(steps) / SPEED))
     except OSError as error:
         raise InputError(f"{out}: cannot be written: {error.strerror}") from None
 

@@ -8,8 +8,14 @@ from matplotlib.figure import Figure
 DPI = 150
 
 
+def settle(figure: Figure) -> None:
+    """Lay a figure out for good; drawing it does not move anything afterwards."""
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+
+
 def svg(figure: Figure) -> bytes:
-    """Return a figure as SVG, without a date and with reproducible ids."""
+    """Return a settled figure as SVG, without a date and with reproducible ids."""
     stream = io.BytesIO()
     with mpl.rc_context({"svg.hashsalt": "lad-study", "svg.fonttype": "path"}):
         figure.savefig(stream, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
@@ -17,7 +23,7 @@ def svg(figure: Figure) -> bytes:
 
 
 def png(figure: Figure) -> bytes:
-    """Return a figure as PNG."""
+    """Return a settled figure as PNG."""
     stream = io.BytesIO()
     figure.savefig(stream, format="png", dpi=DPI, metadata={"Software": None})
     return stream.getvalue()

@@ -4,7 +4,7 @@ import shutil
 from collections.abc import Callable
 from pathlib import Path
 
-from analysis.figures.files import png, svg
+from analysis.figures.files import png, settle, svg
 from analysis.report.page import build_page
 from analysis.report.render import render
 from analysis.results import analyse
@@ -45,6 +45,8 @@ def write_report(study_dir: Path, progress: Callable[[str], None] | None = None)
     results = analyse(open_study(study_dir), tell)
     tell("Drawing figures")
     page = build_page(results)
+    for picture in page.pictures:
+        settle(picture.figure)
     svgs = {picture.name: svg(picture.figure) for picture in page.pictures}
     pngs = {picture.name: png(picture.figure) for picture in page.pictures}
     tables = {t.name: t.frame.to_csv(index=False, lineterminator="\n") for t in page.tables}

@@ -116,9 +116,7 @@ def as_table(steps: pd.DataFrame) -> pa.Table:
         name: pa.array(steps[name], from_pandas=True).cast(STEP_SCHEMA.field(name).type)
         for name in given
     }
-    columns = [
-        arrays.get(f.name, pa.nulls(len(steps), f.type)) for f in STEP_SCHEMA
-    ]
+    columns = [arrays.get(f.name, pa.nulls(len(steps), f.type)) for f in STEP_SCHEMA]
     return pa.Table.from_arrays(columns, schema=STEP_SCHEMA)
 
 
@@ -204,8 +202,8 @@ def write_study(
 
 @pytest.fixture(scope="session")
 def study(tmp_path_factory: pytest.TempPathFactory) -> Study:
-    """Return a made-up four-lap study of eight people in which little happens."""
-    return write_study(tmp_path_factory.mktemp("made-up") / "study", MadeUp(participants=8))
+    """Return a made-up four-lap study of six people in which little happens."""
+    return write_study(tmp_path_factory.mktemp("made-up") / "study", MadeUp(participants=6))
 
 
 @pytest.fixture

@@ -1,0 +1,45 @@
+"""Who took part, and which laps there are: the arithmetic adds up."""
+
+import pytest
+
+from analysis.flow import participants_flow
+from analysis.frames import study_frames
+
+
+@pytest.fixture
+def eventful(make_study):
+    """Return a study in which laps were cut short and people left or were excluded."""
+    return make_study(
+        participants=6,
+        unfinished=frozenset({(1, 2), (2, 2)}),
+        withdrew={3: 3},
+        excluded={4: "too many collisions", 5: "too many collisions"},
+    )
+
+
+def test_participants_add_up(eventful):
+    """Planned = not run + failed + recorded; recorded = refused + excluded + analysed."""
+    flow = participants_flow(study_frames(eventful))
+    assert flow.planned == flow.not_run + flow.failed + flow.recorded == 6
+    assert flow.recorded == flow.refused + sum(flow.excluded.values()) + flow.analysed
+    assert flow.excluded == {"too many collisions": 2}
+    assert (flow.analysed, flow.completed) == (4, 1)
+
+
+def test_laps_add_up(eventful):
+    """Per condition, laps planned = finished + unfinished + not driven."""
+    laps = participants_flow(study_frames(eventful)).laps.set_index("condition")
+    parts = laps.drop(columns="planned").sum(axis=1)
+    assert (laps["planned"] == parts).all()
+    assert laps.loc["limited", "time_limit"] == 2
+    assert laps.loc["human-assisted", "withdrew"] == 1
+    assert laps.loc["model-assisted", "not_driven"] == 1
+
+
+def test_the_excluded_are_in_no_frame(eventful):
+    """No lap or answer of an excluded participant is analysed; practice laps of nobody."""
+    frames = study_frames(eventful)
+    out = {"P0004", "P0005"}
+    assert not out & set(frames.laps["participant"])
+    assert not out & set(frames.surveys["participant"])
+    assert 0 not in set(frames.laps["lap"])

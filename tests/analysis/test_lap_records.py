@@ -1,0 +1,50 @@
+"""One pass over the steps of every lap."""
+
+import shutil
+
+from analysis.frames import study_frames
+from analysis.lap_records import read_laps
+from analysis.measures.path_length import path_length
+
+
+def test_every_analysed_lap_is_measured_once(study):
+    """One row per analysed lap, with the numbers its own steps give."""
+    frames = study_frames(study)
+    measures = read_laps(frames).measures
+    assert len(measures) == len(frames.laps)
+    row = measures[(measures["participant"] == "P0003") & (measures["lap"] == 2)].iloc[0]
+    assert row["path_length_m"] == path_length(study.steps("P0003", 2).to_pandas())
+
+
+def test_measures_agree_with_the_recorded_lap_table(study):
+    """Assisted fraction and interventions are those that were recorded while driving."""
+    frames = study_frames(study)
+    measures = read_laps(frames).measures
+    both = measures.merge(frames.laps, on=["participant", "lap"], suffixes=("", "_recorded"))
+    assert (both["assisted_fraction"] - both["assisted_fraction_recorded"]).abs().max() < 1e-12
+    assert (both["interventions"] == both["interventions_recorded"]).all()
+
+
+def test_steps_are_pooled_with_who_and_where(study):
+    """The pool holds every step of every analysed lap."""
+    frames = study_frames(study)
+    pool = read_laps(frames).steps
+    assert len(pool) == frames.laps["steps"].sum()
+    assert set(pool["condition"]) == set(frames.conditions)
+
+
+def test_a_lap_without_a_step_table_is_counted(make_study):
+    """Elsewhere steps may not have been recorded: the lap stays, its measures are missing."""
+    study = make_study()
+    shutil.rmtree(study.folder / "sessions" / "P0002")
+    records = read_laps(study_frames(study))
+    assert records.without_steps == 4
+    gaps = records.measures[records.measures["participant"] == "P0002"]
+    assert gaps["path_length_m"].isna().all()
+
+
+def test_progress_is_told(study):
+    """Long work says what it is doing."""
+    said = []
+    read_laps(study_frames(study), said.append)
+    assert said[0].startswith("Measuring laps: 0 of")

@@ -1,0 +1,47 @@
+"""A lap as a moving picture."""
+
+import pytest
+from PIL import Image
+
+from analysis.replay import EVERY, write_replay
+from protocols.errors import InputError
+
+
+def test_a_replay_moves_and_shows_who_is_in_control(study, tmp_path):
+    """Every other step and the last one; the trail takes the model's colour where it helped."""
+    out = tmp_path / "lap.gif"
+    write_replay(study.folder, "P0001", 4, out)
+    n = len(study.steps("P0001", 4))
+    with Image.open(out) as gif:
+        assert gif.format == "GIF"
+        assert gif.n_frames == len({*range(0, n, EVERY), n - 1})
+        first = gif.convert("RGB").tobytes()
+        gif.seek(gif.n_frames - 1)
+        last = gif.convert("RGB")
+    assert last.tobytes() != first
+    assert any(g > r + 60 and g > b + 20 for _, (r, g, b) in last.getcolors(1 << 20))
+    assert out.stat().st_size < 6_000_000
+
+
+def test_a_lap_without_a_model_can_be_replayed(study, tmp_path):
+    """There is no p(h) to draw; the lap is."""
+    out = tmp_path / "lap.gif"
+    write_replay(study.folder, "P0001", 1, out)
+    with Image.open(out) as gif:
+        assert gif.n_frames > 1
+
+
+def test_who_is_not_there_is_one_clear_line(study, tmp_path):
+    """An unknown participant or lap names what there is, and nothing is written."""
+    out = tmp_path / "lap.gif"
+    with pytest.raises(InputError, match="P9999"):
+        write_replay(study.folder, "P9999", 1, out)
+    with pytest.raises(InputError, match="no lap 17"):
+        write_replay(study.folder, "P0001", 17, out)
+    assert not out.exists()
+
+
+def test_a_folder_that_is_not_there_is_one_clear_line(study, tmp_path):
+    """The output cannot be written: says where, before anything is drawn."""
+    with pytest.raises(InputError, match="no such folder"):
+        write_replay(study.folder, "P0001", 1, tmp_path / "nowhere" / "lap.gif")

@@ -1,0 +1,20 @@
+"""What part each condition plays."""
+
+from analysis.roles import cast, first, yardstick
+from protocols.load import load_protocol
+
+
+def test_the_four_laps_have_their_parts():
+    """Baseline, limited, demonstrator and model follow from the conditions' settings."""
+    parts = cast(load_protocol("four-lap"))
+    assert [p.role for p in parts] == ["baseline", "limited", "demonstrator", "model"]
+    assert [p.demonstrations for p in parts] == [0, 0, 0, 1]
+    assert first(parts, "model") == "model-assisted"
+    assert yardstick(parts) == "limited"
+
+
+def test_without_a_limitation_the_baseline_is_the_yardstick():
+    """Speedups need something to be measured from."""
+    parts = tuple(p for p in cast(load_protocol("four-lap")) if p.role != "limited")
+    assert yardstick(parts) == "baseline"
+    assert yardstick(()) is None
