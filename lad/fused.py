@@ -282,7 +282,7 @@ def update_and_delete(
 
     The new vector takes that slot; slot n says that it was itself deleted. With u = [e; -1] and
     D = Q* + C* the whole step is C += r s s' + Q* Q*' / q* - D D' / (q* + c*) and
-    Q += u u' / gamma - Q* Q*' / q*.
+    Q += u u' / gamma - Q* Q*' / q*, which is nothing for slot n.
     """
     s, e, Q_star, D = work[S_ROW], work[E_ROW], work[Q_STAR_ROW], work[D_ROW]
     s[n], e[n] = 1.0, -1.0
@@ -303,6 +303,8 @@ def update_and_delete(
         row, sa, qa, da = C[a], r * s[a], by_q * Q_star[a], by_d * D[a]
         for b in range(a + 1):
             row[b] += sa * s[b] + qa * Q_star[b] - da * D[b]
+    if slot == n:  # the new one came and went: u u' / gamma = Q* Q*' / q*
+        return slot
     for a in range(n):
         row, ea, qa = Q[a], e[a] / gamma, by_q * Q_star[a]
         for b in range(a + 1):
@@ -343,11 +345,14 @@ def learn(
 
 
 @compiled
-def likeliest_wrong(n: int, Q: Matrix, work: Matrix) -> int:
-    """Find the basis vector whose column of QK - I the last step has most likely spoilt."""
+def likeliest_wrong(n: int, new: int, Q: Matrix, work: Matrix) -> int:
+    """Find the basis vector whose column of QK - I the last step has most likely spoilt.
+
+    That of the new vector itself is nearly exact.
+    """
     k, best, largest = work[K_ROW], 0, -1.0
     for i in range(n):
         weight = Q[i, i] * k[i]
-        if weight > largest:
+        if weight > largest and i != new:
             best, largest = i, weight
     return best

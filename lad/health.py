@@ -23,6 +23,8 @@ LIMIT = LARGEST_RESIDUAL / 2.0
 
 LEAST_RISK = 1.0 / 16.0
 RISKY_NOVELTY = 3e-4
+ROUND_EVERY = 8
+"""Every eighth look takes in one column more, in turn, so that none is left out for ever."""
 
 
 @dataclass
@@ -32,7 +34,7 @@ class Health:
     Attributes
     ----------
     residual
-        Largest entry of the column of |QK - I| looked at last.
+        Largest entry of the column (or two) of |QK - I| looked at last.
     limit
         Residual of that column at which Q is computed anew: half of 1e-6, or ten times what the
         last repair could reach where the kernel matrix is so ill-conditioned that float64 cannot
@@ -41,6 +43,9 @@ class Health:
         How often a column was looked at.
     repairs
         How often Q was computed anew by factorising the kernel matrix.
+    recoveries
+        How often a posterior with a negative variance was rebuilt (``lad.recovery``): 0 with
+        Table I, and with any noise worth the name.
     risk
         Sum, since the last look, of a weight per change of Q: at least 1/16, and 1 when the
         novelty was 3e-4 or less (the error of a full update grows with 1 / gamma). The next look
@@ -51,6 +56,7 @@ class Health:
     limit: float = LIMIT
     probes: int = 0
     repairs: int = 0
+    recoveries: int = 0
     risk: float = 0.0
 
     def to_header(self) -> dict[str, Any]:
@@ -86,17 +92,21 @@ class KernelMatrix:
         """Largest entry of |QK - I|, every column: exact, at the price of n predictions."""
         return max((self.residual_of_column(slot) for slot in range(self.state.n)), default=0.0)
 
+    def fill(self, out: fused.Matrix, extra: float = 0.0) -> None:
+        """Write K + extra I into a lower triangle."""
+        k, scratch = aligned_zeros(2, self.state.room)
+        for slot in range(self.state.n):
+            self.column(slot, slot + 1, k, scratch)
+            out[slot, : slot + 1] = k[: slot + 1]
+            out[slot, slot] += extra
+
     def invert_into_Q(self) -> None:  # noqa: N802  # Q is the mathematics' own name
         """Compute Q anew from the kernel matrix; C and alpha do not depend on its errors."""
-        n = self.state.n
-        k, scratch = aligned_zeros(2, self.state.room)
-        for slot in range(n):
-            self.column(slot, slot + 1, k, scratch)
-            self.state.Q[slot, : slot + 1] = k[: slot + 1]
-        invert(self.state.Q, n, SMALLEST_NOVELTY)
+        self.fill(self.state.Q)
+        invert(self.state.Q, self.state.n, SMALLEST_NOVELTY)
 
 
-def watch(health: Health, matrix: KernelMatrix, novelty: float) -> None:
+def watch(health: Health, matrix: KernelMatrix, new: int, novelty: float) -> None:
     """Look, when it is due, after a step that changed Q; repair when the residual is too large.
 
     Parameters
@@ -105,6 +115,8 @@ def watch(health: Health, matrix: KernelMatrix, novelty: float) -> None:
         Updated in place.
     matrix
         The kernel matrix; row 0 of its state's ``work`` still holds k of the input just learnt.
+    new
+        Slot of the new basis vector.
     novelty
         gamma / k(x, x) of that input.
     """
@@ -114,8 +126,11 @@ def watch(health: Health, matrix: KernelMatrix, novelty: float) -> None:
     health.risk = 0.0
     health.probes += 1
     state = matrix.state
-    slot = fused.likeliest_wrong(state.n, state.Q, state.work)
+    slot = fused.likeliest_wrong(state.n, new, state.Q, state.work)
     health.residual = matrix.residual_of_column(slot)
+    if health.probes % ROUND_EVERY == 0:
+        other = matrix.residual_of_column(health.probes // ROUND_EVERY % state.n)
+        health.residual = max(health.residual, other)
     if health.residual > health.limit:
         matrix.invert_into_Q()
         health.repairs += 1

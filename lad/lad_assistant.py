@@ -12,8 +12,8 @@ from lad.errors import InvalidTargetError
 from lad.health import Health
 from lad.hyperparameters import LADParameters
 from lad.likelihood import probability_of_help
-from lad.model_file import pack, read, unpack, write_whole
-from lad.snapshot import restore_state, restore_window, state_arrays, window_arrays
+from lad.model_file import pack, read, rebuilding, unpack, write_whole
+from lad.snapshot import Arrays, restore_state, restore_window, state_arrays, window_arrays
 from lad.stork_gp import StorkGP
 
 KIND = "lad-assistant"
@@ -137,16 +137,12 @@ class LADAssistant:
             When the bytes are not a saved assistant; ``source`` names them.
         """
         header, arrays = unpack(data, KIND, source)
-        model = cls(LADParameters.from_header(header["parameters"]))
-        restore_window(model.when.window, header["window"], arrays)
-        for name, process in (("when", model.when), ("how", model.how)):
-            mine = {
-                key.removeprefix(f"{name}/"): array
-                for key, array in arrays.items()
-                if key.startswith(f"{name}/")
-            }
-            restore_state(process.state, mine)
-        model.when.health, model.how.health = (Health(**values) for values in header["health"])
+        with rebuilding(source):
+            model = cls(LADParameters.from_header(header["parameters"]))
+            restore_window(model.when.window, header["window"], arrays)
+            for name, process in (("when", model.when), ("how", model.how)):
+                restore_state(process.state, _belonging_to(name, arrays))
+            model.when.health, model.how.health = (Health(**one) for one in header["health"])
         return model
 
     def save(self, path: str | Path) -> None:
@@ -160,3 +156,10 @@ class LADAssistant:
 
     def __reduce__(self) -> tuple[object, tuple[bytes]]:
         return type(self).from_bytes, (self.to_bytes(),)
+
+
+def _belonging_to(name: str, arrays: Arrays) -> Arrays:
+    prefix = f"{name}/"
+    return {
+        key.removeprefix(prefix): array for key, array in arrays.items() if key.startswith(prefix)
+    }

@@ -15,7 +15,7 @@ from scipy.special import erfcx, ndtr
 from lad.errors import HyperparameterError, InvalidTargetError
 from lad.window import as_vector
 
-LARGEST_TARGET = 1e100
+LARGEST_TARGET = 1e50
 SQRT_2 = math.sqrt(2.0)
 SQRT_2_OVER_PI = math.sqrt(2.0 / math.pi)
 LikelihoodName = Literal["gaussian", "probit"]

@@ -8,7 +8,8 @@ import io
 import json
 import os
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -94,7 +95,7 @@ def unpack(
         header = json.loads(str(arrays.pop("header")))
         found = (header["format"], header["format_version"], header["kind"])
     except Exception as error:  # whatever zip, numpy and JSON may raise on foreign bytes
-        raise ModelFileError(f"{source}: not a saved model, or truncated") from error
+        raise ModelFileError(f"{source}: truncated, or not a saved model at all") from error
     if found[0] != FORMAT:
         raise ModelFileError(f"{source}: given format {found[0]!r}; allowed is {FORMAT!r}")
     if found[1] != FORMAT_VERSION:
@@ -104,6 +105,16 @@ def unpack(
     if found[2] != kind:
         raise ModelFileError(f"{source}: holds a {found[2]!r}; wanted is a {kind!r}")
     return header, arrays
+
+
+@contextmanager
+def rebuilding(source: str) -> Iterator[None]:
+    """Turn whatever is wrong inside a well-formed file into a ModelFileError that names it."""
+    try:
+        yield
+    except (KeyError, TypeError, ValueError) as error:
+        reason = f"{error} is missing" if isinstance(error, KeyError) else str(error)
+        raise ModelFileError(f"{source}: {reason}") from error
 
 
 def read(path: str | Path) -> bytes:

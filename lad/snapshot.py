@@ -42,7 +42,7 @@ def restore_state(state: State, arrays: Arrays) -> None:
     """Fill a new state with what ``state_arrays`` took from another."""
     n = len(_expected(arrays, "times", None))
     if n > state.capacity:
-        raise ModelFileError(f"model: {n} basis vectors; its capacity is {state.capacity}")
+        raise ModelFileError(f"{n} basis vectors; its capacity is {state.capacity}")
     while state.room < n:
         state.n = state.room
         state.make_room()
@@ -60,10 +60,10 @@ def restore_state(state: State, arrays: Arrays) -> None:
 def _expected(arrays: Arrays, name: str, shape: tuple[int, ...] | None) -> NDArray[Any]:
     """Look up an array that must be there, finite and of one shape."""
     if name not in arrays:
-        raise ModelFileError(f"model: array {name!r} is missing")
+        raise ModelFileError(f"array {name!r} is missing")
     array = arrays[name]
     if array.dtype.kind not in "fi" or not np.isfinite(array).all():
-        raise ModelFileError(f"model: array {name!r} holds something other than finite numbers")
+        raise ModelFileError(f"array {name!r} holds something other than finite numbers")
     if shape is not None and array.shape != shape:
-        raise ModelFileError(f"model: array {name!r} has shape {array.shape}; wanted is {shape}")
+        raise ModelFileError(f"array {name!r} has shape {array.shape}; wanted is {shape}")
     return array

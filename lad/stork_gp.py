@@ -10,7 +10,8 @@ from lad import fused
 from lad.health import Health, KernelMatrix, watch
 from lad.hyperparameters import GPHyperparameters
 from lad.likelihood import LikelihoodName, check_outputs, check_target, evidence
-from lad.model_file import pack, read, unpack, write_whole
+from lad.model_file import pack, read, rebuilding, unpack, write_whole
+from lad.recovery import is_possible, rebuild
 from lad.snapshot import restore_state, restore_window, state_arrays, window_arrays
 from lad.state import State
 from lad.update import SMALLEST_NOVELTY, SMALLEST_VARIANCE, Prediction, Update, UpdateKind
@@ -89,7 +90,7 @@ class StorkGP:
         self.health = Health()
         self._kernel_matrix = KernelMatrix(self.state, self._inverse_scale, self._prior)
         self._mean = np.zeros(n_outputs)
-        self._latent = 0.0
+        self._computed_latent = self._latent = 0.0
         self._looked_at = -1
 
     @property
@@ -126,6 +127,7 @@ class StorkGP:
             self._prior,
             self._mean,
         )
+        self._computed_latent = latent
         self._latent = max(latent, SMALLEST_VARIANCE)
         self._looked_at = self.window.version
 
@@ -164,6 +166,8 @@ class StorkGP:
         """
         target = check_target(y, self.n_outputs, self.likelihood)
         self._look()
+        if not is_possible(self._computed_latent, self._mean, self._noise):
+            self._recover()
         q, r = evidence(target, self._mean, self._latent + self._noise, self.likelihood)
         state = self.state
         state.make_room()
@@ -183,8 +187,15 @@ class StorkGP:
         novelty = gamma / self._prior if gamma >= SMALLEST_NOVELTY else 0.0
         update = self._take_in(done, novelty, slot)
         if done != fused.SPARSE and slot < state.n:
-            watch(self.health, self._kernel_matrix, novelty)
+            watch(self.health, self._kernel_matrix, slot, novelty)
         return update
+
+    def _recover(self) -> None:
+        """Rebuild an impossible posterior, and look again."""
+        rebuild(self._kernel_matrix, self._noise)
+        self.health.recoveries += 1
+        self._looked_at = -1
+        self._look()
 
     def _take_in(self, done: int, novelty: float, slot: int) -> Update:
         """Keep the window where the step put the new basis vector, and say what happened."""
@@ -223,11 +234,12 @@ class StorkGP:
             When the bytes are not a saved process; ``source`` names them.
         """
         header, arrays = unpack(data, KIND, source)
-        hyper = GPHyperparameters.from_header(header["hyperparameters"])
-        process = cls(hyper, header["likelihood"], header["n_outputs"])
-        restore_window(process.window, header["window"], arrays)
-        restore_state(process.state, arrays)
-        process.health = Health(**header["health"])
+        with rebuilding(source):
+            hyper = GPHyperparameters.from_header(header["hyperparameters"])
+            process = cls(hyper, header["likelihood"], header["n_outputs"])
+            restore_window(process.window, header["window"], arrays)
+            restore_state(process.state, arrays)
+            process.health = Health(**header["health"])
         return process
 
     def save(self, path: str | Path) -> None:

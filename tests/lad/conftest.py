@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 
 
 def wheelchair_stream(seed: int, steps: int, noise: float) -> tuple[Floats, Floats]:
-    """Inputs (steps, 19) and commands (steps, 2) of a chair on a slow course, lidar noise in m."""
+    """Make inputs (steps, 19) and commands (steps, 2) of a slow course; lidar noise in m."""
     rng = np.random.default_rng(seed)
     t = np.arange(steps)[:, None] * 0.1
     phase = rng.uniform(0.0, 2.0 * np.pi, 19)

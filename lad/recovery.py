@@ -1,0 +1,53 @@
+"""The way back from a posterior that rounding has made impossible.
+
+In exact arithmetic a posterior variance is never negative. In float64, with noise far below the
+signal and inputs closely alike, k'Ck can pass below -k(x, x); a step taken from there has the
+wrong sign, the next one is larger, and soon nothing is finite. Table I's numbers do not come near
+it. Whoever chooses other numbers gets a step back instead: the model is rebuilt as if each basis
+vector had been observed once, at the value the model holds there.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lad import fused
+from lad.health import KernelMatrix
+from lad.inverse import invert
+from lad.update import SMALLEST_NOVELTY
+
+TOLERATED_SHARE = 0.1
+"""A variance below minus this share of the noise is taken for impossible: steps still contract."""
+
+LEAST_NOISE_SHARE = 1e-6
+
+
+def is_possible(latent: float, mean: NDArray[np.float64], noise: float) -> bool:
+    """Say whether a prediction, its variance not yet kept positive, can be learnt from."""
+    return latent >= -TOLERATED_SHARE * noise and bool(np.isfinite(mean).all())
+
+
+def rebuild(matrix: KernelMatrix, noise: float) -> None:
+    """Make alpha and C those of one observation per basis vector, at the present mean.
+
+    C = -(K + d I)^-1 and alpha <- (K + d I)^-1 K alpha, with d the noise or a millionth of the
+    prior variance, whichever is more. What is not finite any more is forgotten.
+
+    Parameters
+    ----------
+    matrix
+        Kernel matrix of the basis vectors; its state is changed.
+    noise
+        sigma_n^2.
+    """
+    state, n = matrix.state, matrix.state.n
+    d = max(noise, LEAST_NOISE_SHARE * matrix.prior)
+    matrix.fill(state.C, d)
+    invert(state.C, n, SMALLEST_NOVELTY)
+    product = np.empty(state.room)
+    for row in state.alpha:
+        if np.isfinite(row[:n]).all():
+            fused.symmetric_product(state.C, row, n, product)
+            row[:n] -= d * product[:n]
+        else:
+            row[:n] = 0.0
+    np.negative(state.C[:n, :n], out=state.C[:n, :n])

@@ -1,0 +1,50 @@
+"""Room grows until capacity, then never again."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lad.hyperparameters import GPHyperparameters
+from lad.state import LINE, State, aligned_zeros
+from lad.stork_gp import StorkGP
+
+
+@pytest.mark.parametrize("shape", [(3, 8), (1, 16), (4, 2, 24)])
+def test_rows_begin_on_a_cache_line(shape):
+    """The address of the first number is a multiple of 64 bytes."""
+    array = aligned_zeros(*shape)
+    assert array.ctypes.data % 64 == 0
+    assert array.shape == shape
+    assert not array.any()
+
+
+@given(st.integers(1, 300))
+def test_there_is_always_room_for_one_more(capacity):
+    """Growing keeps what was there and stops at capacity + 1, rounded up to a cache line."""
+    state = State(depth=2, n_inputs=3, n_outputs=1, capacity=capacity)
+    while state.n < capacity:
+        state.make_room()
+        state.times[state.n] = state.n
+        state.C[state.n, state.n] = 1.0
+        state.n += 1
+    state.make_room()
+    assert state.times[: state.n].tolist() == list(range(capacity))
+    assert np.trace(state.C) == capacity
+    assert capacity + 1 <= state.room < capacity + 1 + LINE
+
+
+def test_memory_is_constant_at_capacity():
+    """Once full, not one array is replaced, however long the stream."""
+    rng = np.random.default_rng(0)
+    process = StorkGP(GPHyperparameters(lengthscales=[0.3], noise_variance=0.1, capacity=40))
+    addresses = []
+    for step in range(2000):
+        process.observe(rng.normal(size=1))
+        process.learn(rng.normal())
+        if step in (500, 1999):
+            state = process.state
+            arrays = (state.C, state.Q, state.alpha, state.basis, state.times, state.work)
+            addresses.append([(a.ctypes.data, a.nbytes) for a in arrays])
+    assert process.n_basis == 40
+    assert addresses[0] == addresses[1]
