@@ -23,6 +23,9 @@ CORNER_RADIUS = 1.5
 CLEAR = 0.8
 """How far every box stays away from the path, m."""
 
+TRIES = 5000
+"""How often a place for a box is drawn; 200 boxes take some 1,700."""
+
 WALLS = 8
 """Boxes taken by the room and by the block in its middle."""
 
@@ -87,7 +90,7 @@ def _furniture(n: int, line: tuple[Point, ...], rng: np.random.Generator) -> Ite
         shapely.box(BLOCK, BLOCK, LENGTH - BLOCK, WIDTH - BLOCK).buffer(0.1),
     ]
     placed = 0
-    for _ in range(1000 * max(n, 1)):
+    for _ in range(TRIES):
         if placed == n:
             return
         x, y = rng.uniform((0.5, 0.5), (LENGTH - 0.5, WIDTH - 0.5))
