@@ -8,6 +8,9 @@ LEAST = 0.1
 NOTICEABLE = 0.15
 """Turn rates below this are too slow to tell whether the chair obeys, rad/s."""
 
+STEADY = 0.25
+"""A stick counts as held while it stays within this share of what it has been asking."""
+
 SETTLING = 0.4
 """Time constant with which a person remembers what the stick has been asking, s."""
 
@@ -54,7 +57,9 @@ class Authority:
             Whether it was the stick that moved the chair, and nothing else.
         """
         self._asked += min(passed / SETTLING, 1.0) * (asked.w - self._asked)
-        if not trusted or abs(self._asked) < NOTICEABLE or self._asked * asked.w <= 0:
+        # One can only tell while the stick is held: a chair takes time to follow.
+        held = abs(asked.w - self._asked) < STEADY * abs(self._asked)
+        if not (trusted and held) or abs(self._asked) < NOTICEABLE:
             return
         share = min(max(felt.w / self._asked, LEAST), 1.0)
         learn = min(self._rate * passed, 1.0)

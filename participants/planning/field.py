@@ -49,7 +49,7 @@ def scan_field(
 @compiled
 def _field(ranges: Any, bearings: Any, laser: float, longest: float) -> Any:
     """Exact squared distances between cell centres, in two passes (Felzenszwalb et al., 2012)."""
-    reach = int(FAR / CELL) + 1
+    reach = int((FAR + SLACK) / CELL) + 1
     # First pass: steps to the nearest occupied cell in the same row.
     steps = np.full((ROWS, COLUMNS), COLUMNS, dtype=np.int32)
     for i in range(len(ranges)):

@@ -29,9 +29,9 @@ from protocols.wheelchair import (
 )
 
 PERIOD = 0.1
-SUBSTEPS = 4
+SUBSTEPS = 2
 RANGE = 4.0
-BEARINGS = np.radians(np.linspace(-120.0, 120.0, 180))
+BEARINGS = np.radians(np.linspace(-120.0, 120.0, 121))
 OUTLINE = np.array(
     [(FRONT, WIDTH / 2), (-REAR, WIDTH / 2), (-REAR, -WIDTH / 2), (FRONT, -WIDTH / 2)]
 )
