@@ -189,8 +189,13 @@ def refit_step(make: Peer, operation: str, m: int, tau: int, data: Data) -> Step
     """Build the timed operation of a peer; None where it has no such operation."""
     process = trained(m, tau, data)
     rows = flattened(process.state.basis, m)
-    steps = make(process.hyperparameters, rows, data[1][:m].copy())
-    if operation not in steps:
+    try:
+        steps = make(process.hyperparameters, rows, data[1][:m].copy())
+        if operation not in steps:
+            return None
+        steps[operation](rows[0])
+    except Exception as error:  # noqa: BLE001  # a peer's trouble is not ours
+        print(f"{make.__name__}, {operation}: failed, left out ({error})")
         return None
     near = iter(np.tile(rows, (50, 1)) + 0.01)
 

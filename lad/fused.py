@@ -167,13 +167,16 @@ def predict(
     prior: float,
     mean: Vector,
 ) -> float:
-    """Fill k and C k, and ``mean`` by equation (8); return equation (9)."""
+    """Fill k and C k, and ``mean`` by equation (8); return equation (9), NaN with a NaN mean."""
     k, Ck = work[K_ROW], work[S_ROW]
     kernel_vector(basis, window, n, inverse_scale, prior, k, work[E_ROW])
     symmetric_product(C, k, n, Ck)
+    latent = prior + inner(k, Ck, n)
     for output in range(alpha.shape[0]):
         mean[output] = inner(alpha[output], k, n)
-    return prior + inner(k, Ck, n)
+        if not np.isfinite(mean[output]):
+            latent = np.nan
+    return latent
 
 
 @compiled

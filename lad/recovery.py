@@ -8,7 +8,6 @@ vector had been observed once, at the value the model holds there.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lad import fused
 from lad.health import KernelMatrix
@@ -21,9 +20,9 @@ TOLERATED_SHARE = 0.1
 LEAST_NOISE_SHARE = 1e-6
 
 
-def is_possible(latent: float, mean: NDArray[np.float64], noise: float) -> bool:
-    """Say whether a prediction, its variance not yet kept positive, can be learnt from."""
-    return latent >= -TOLERATED_SHARE * noise and bool(np.isfinite(mean).all())
+def is_possible(latent: float, noise: float) -> bool:
+    """Say whether a latent variance, not yet kept positive, can be learnt from; NaN cannot."""
+    return latent >= -TOLERATED_SHARE * noise
 
 
 def rebuild(matrix: KernelMatrix, noise: float) -> None:

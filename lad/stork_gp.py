@@ -128,7 +128,7 @@ class StorkGP:
             self._mean,
         )
         self._computed_latent = latent
-        self._latent = max(latent, SMALLEST_VARIANCE)
+        self._latent = latent if latent > SMALLEST_VARIANCE else SMALLEST_VARIANCE
         self._looked_at = self.window.version
 
     def predict(self) -> Prediction:
@@ -166,7 +166,7 @@ class StorkGP:
         """
         target = check_target(y, self.n_outputs, self.likelihood)
         self._look()
-        if not is_possible(self._computed_latent, self._mean, self._noise):
+        if not is_possible(self._computed_latent, self._noise):
             self._recover()
         q, r = evidence(target, self._mean, self._latent + self._noise, self.likelihood)
         state = self.state

@@ -1,7 +1,7 @@
 """What one prediction and one learning step report."""
 
-from dataclasses import dataclass
 from enum import IntEnum
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,8 +26,7 @@ class UpdateKind(IntEnum):
     FULL_THEN_DELETION = 3
 
 
-@dataclass(frozen=True, slots=True)
-class Update:
+class Update(NamedTuple):
     """What one learning step did.
 
     Attributes
@@ -46,8 +45,7 @@ class Update:
     deleted_time: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Prediction:
+class Prediction(NamedTuple):
     """A predictive distribution, the same variance for every output.
 
     Attributes
