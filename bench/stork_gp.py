@@ -38,7 +38,8 @@ from stork_gp_blas import BlasStorkGP
 from stork_gp_refit import flattened, gpytorch_steps, sklearn_steps
 
 from lad.hyperparameters import GPHyperparameters
-from lad.plain import PlainStorkGP, Posterior
+from lad.plain import PlainStorkGP
+from lad.posterior import Posterior
 from lad.snapshot import restore_state, state_arrays
 from lad.state import State, whole
 from lad.stork_gp import StorkGP

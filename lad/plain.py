@@ -4,14 +4,13 @@ This is the definition. The class people use, ``lad.stork_gp.StorkGP``, computes
 in place and many times faster, and is tested against this one.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from lad.hyperparameters import GPHyperparameters
 from lad.kernel import recursive_kernel
 from lad.likelihood import Evidence, LikelihoodName, check_outputs, check_target, evidence
+from lad.posterior import Posterior
 from lad.update import (
     SMALLEST_NOVELTY,
     SMALLEST_SHARE,
@@ -21,25 +20,6 @@ from lad.update import (
     UpdateKind,
 )
 from lad.window import Window
-
-
-@dataclass(frozen=True)
-class Posterior:
-    """A Gaussian process in its natural parameters, equations (4) and (5).
-
-    Attributes
-    ----------
-    alpha
-        Shape (n, p).
-    C
-        Shape (n, n).
-    Q
-        Shape (n, n): the inverse of the kernel matrix of the basis vectors.
-    """
-
-    alpha: NDArray[np.float64]
-    C: NDArray[np.float64]
-    Q: NDArray[np.float64]
 
 
 def _bordered(matrix: NDArray[np.float64]) -> NDArray[np.float64]:

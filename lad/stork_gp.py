@@ -11,9 +11,10 @@ from lad.health import Health, KernelMatrix, watch
 from lad.hyperparameters import GPHyperparameters
 from lad.likelihood import LikelihoodName, check_outputs, check_target, evidence
 from lad.model_file import pack, read, rebuilding, unpack, write_whole
+from lad.posterior import Posterior
 from lad.recovery import is_possible, rebuild
 from lad.snapshot import restore_state, restore_window, state_arrays, window_arrays
-from lad.state import State
+from lad.state import State, whole
 from lad.update import SMALLEST_NOVELTY, SMALLEST_VARIANCE, Prediction, Update, UpdateKind
 from lad.window import Window
 
@@ -46,7 +47,8 @@ class StorkGP:
     Raises
     ------
     HyperparameterError
-        When the likelihood is unknown, or has not that many outputs.
+        When the likelihood is unknown, or has not that many outputs, or a shared window has other
+        lengthscales or another depth.
 
     References
     ----------
@@ -77,6 +79,7 @@ class StorkGP:
         self.window = window or Window(
             np.array(hyperparameters.lengthscales), hyperparameters.recursion_depth
         )
+        self.window.check_fits(hyperparameters.lengthscales, hyperparameters.recursion_depth)
         self.state = State(
             depth=hyperparameters.recursion_depth,
             n_inputs=hyperparameters.n_inputs,
@@ -103,6 +106,13 @@ class StorkGP:
         """Shape (n,): which input of the model's life each basis vector is, from 0."""
         return self.state.times[: self.state.n].copy()
 
+    def posterior(self) -> Posterior:
+        """Copy alpha (n, p), C (n, n) and Q (n, n); rows are in the order of ``times``."""
+        state, n = self.state, self.state.n
+        return Posterior(
+            state.alpha[:, :n].T.copy(), whole(state.C[:n, :n]), whole(state.Q[:n, :n])
+        )
+
     def observe(self, x: NDArray[np.float64]) -> None:
         """Advance the window by one input, shape (d,)."""
         self.window.observe(x)
@@ -128,7 +138,7 @@ class StorkGP:
             self._mean,
         )
         self._computed_latent = latent
-        self._latent = latent if latent > SMALLEST_VARIANCE else SMALLEST_VARIANCE
+        self._latent = max(SMALLEST_VARIANCE, latent)  # in this order NaN gives way
         self._looked_at = self.window.version
 
     def predict(self) -> Prediction:

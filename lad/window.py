@@ -1,12 +1,13 @@
 """The state of the model: the current input and its recent past, newest first."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lad.errors import InvalidInputError
+from lad.errors import HyperparameterError, InvalidInputError
 
 LARGEST_INPUT = 1e150
 """In lengthscales: squared distances then stay finite."""
@@ -44,6 +45,15 @@ class Window:
         self.lengthscales = np.array(self.lengthscales, dtype=np.float64)
         self._largest = LARGEST_INPUT * self.lengthscales
         self.scaled = np.zeros((self.depth, self.lengthscales.size))
+
+    def check_fits(self, lengthscales: Sequence[float], depth: int) -> None:
+        """Raise a HyperparameterError unless this is the window such a process looks at."""
+        if depth != self.depth or not np.array_equal(lengthscales, self.lengthscales):
+            raise HyperparameterError(
+                f"window: given one of depth {self.depth} and lengthscales "
+                f"{self.lengthscales.tolist()}; allowed is the process's own depth {depth} and "
+                f"lengthscales {list(lengthscales)}"
+            )
 
     def check(self, x: object) -> NDArray[np.float64]:
         """Return x as floats, shape (d,), or raise what ``observe`` would raise."""

@@ -65,11 +65,11 @@ def test_final_parameters(script, vectors, name, prefix):
     ours, theirs = np.argsort(process.times), np.argsort(wanted["ids"])
     assert process.times[ours].tolist() == wanted["ids"][theirs].tolist()
     loose = 0.1 if name.startswith("B3") else 1e-5
-    state, n = process.state, process.n_basis
+    final = process.posterior()
     for found, key in (
-        (state.alpha[:, :n].T, "alpha"),
-        (np.diag(state.C)[:n], "diagC"),
-        (np.diag(state.Q)[:n], "diagQ"),
+        (final.alpha, "alpha"),
+        (np.diag(final.C), "diagC"),
+        (np.diag(final.Q), "diagQ"),
     ):
         difference = np.abs(found[ours] - wanted[key][theirs]).max()
         assert difference <= loose * np.abs(wanted[key]).max(), key

@@ -8,7 +8,8 @@ import pytest
 from lad import plain
 from lad.hyperparameters import GPHyperparameters
 from lad.likelihood import evidence
-from lad.plain import PlainStorkGP, Posterior
+from lad.plain import PlainStorkGP
+from lad.posterior import Posterior
 from lad.stork_gp import StorkGP
 from lad.update import SMALLEST_VARIANCE
 

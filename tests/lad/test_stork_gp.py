@@ -10,18 +10,11 @@ from hypothesis import strategies as st
 from lad.errors import HyperparameterError, InvalidInputError, InvalidTargetError
 from lad.hyperparameters import GPHyperparameters
 from lad.plain import PlainStorkGP
-from lad.state import whole
 from lad.stork_gp import StorkGP
 from lad.stream import learn_stream, predict_stream
 from lad.update import UpdateKind
 
 seeds = st.integers(0, 2**32 - 1)
-
-
-def lower(process, name):
-    """C or Q of a fused process, whole."""
-    n = process.state.n
-    return whole(getattr(process.state, name)[:n, :n])
 
 
 @settings(max_examples=30, deadline=None)
@@ -61,9 +54,10 @@ def test_equals_the_definition(*, seed, d, p, tau, capacity, novelty, probit):
     assert np.abs(one.predictions.variance - other.predictions.variance).max() < 1e-7
     assert plain.times.tolist() == fused.times.tolist()
     scale = 1.0 + np.abs(plain.state.Q).max()
-    assert np.abs(plain.state.alpha - fused.state.alpha[:, : fused.n_basis].T).max() < 1e-7 * scale
-    assert np.abs(plain.state.C - lower(fused, "C")).max() < 1e-7 * scale
-    assert np.abs(plain.state.Q - lower(fused, "Q")).max() < 1e-7 * scale
+    found = fused.posterior()
+    assert np.abs(plain.state.alpha - found.alpha).max() < 1e-7 * scale
+    assert np.abs(plain.state.C - found.C).max() < 1e-7 * scale
+    assert np.abs(plain.state.Q - found.Q).max() < 1e-7 * scale
 
 
 def test_equals_the_definition_at_full_size(stream, make_hyperparameters):
@@ -334,3 +328,12 @@ def test_two_processes_may_share_a_window():
     when.observe([0.5])
     assert how.predict().mean[0] > 0.0
     assert predict_stream(how, np.array([[0.4]])).mean.shape == (1, 1)
+
+
+@pytest.mark.parametrize("changed", [{"lengthscales": [2.0]}, {"recursion_depth": 3}])
+def test_a_window_that_does_not_fit_is_refused(changed):
+    """Sharing needs the same lengthscales and the same depth."""
+    values = {"lengthscales": [1.0], "noise_variance": 0.05}
+    when = StorkGP(GPHyperparameters(**values), "probit")
+    with pytest.raises(HyperparameterError, match="window: given one of depth 4"):
+        StorkGP(GPHyperparameters(**(values | changed)), window=when.window)
