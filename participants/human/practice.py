@@ -48,7 +48,7 @@ def skill(traits: Traits, lap: int) -> Skill:
     excess = traits.inexperience * (lap + 1) ** -traits.practice_exponent
     at_corners = excess * traits.corner_share
     return Skill(
-        way=1.0 / (1.0 + excess - at_corners),
+        way=1.0 / (1.0 + excess * (1.0 - traits.corner_share)),
         corner=1.0 / (1.0 + at_corners),
         pause=traits.corner_pause_s * at_corners,
     )

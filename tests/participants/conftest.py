@@ -1,5 +1,6 @@
 """A small kinematic world to drive laps in: no physics, but walls, a laser and limited forces."""
 
+import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -188,3 +189,38 @@ def room(lab_office) -> Room:
 def limitation() -> Callable[[Command], Command]:
     """Return the study's limitation of right turns."""
     return limited
+
+
+def winding_course() -> Course:
+    """Return a corridor with a sharp right, a left, a soft right and another sharp right turn."""
+    line = [(0, 0), (4, 0), (4, -4), (8, -4), (11, -5.73), (9.5, -8.33)]
+    kinds = ["straight", "sharp_right", "straight", "left", "straight", "soft_right"]
+    kinds += ["straight", "sharp_right", "straight"]
+    corners = np.cumsum([math.dist(a, b) for a, b in itertools.pairwise(line)])[:-1]
+    ends = [end for corner in corners for end in (corner - 0.6, corner + 0.6)]
+    walls = shapely.LineString([(-0.8, 0), *line[1:-1], (9.1, -9.02)]).buffer(1.1, join_style=2)
+    outline = [(float(x), float(y)) for x, y in walls.exterior.coords[:-1]]
+    return Course.model_validate(
+        {
+            "schema": 1,
+            "name": "winding",
+            "title": "A winding corridor",
+            "walls": [{"name": "wall", "closed": True, "points": outline}],
+            "start": {"x": 0, "y": 0, "heading": 0},
+            "gates": [
+                {"name": "A", "left": (5.1, -2), "right": (2.9, -2)},
+                {"name": "F", "left": (10.58, -8.65), "right": (8.67, -7.55)},
+            ],
+            "centreline": line,
+            "sections": [
+                {"name": f"{kind} {i}", "kind": kind, "until": end}
+                for i, (kind, end) in enumerate(zip(kinds, [*ends, None], strict=True))
+            ],
+        }
+    )
+
+
+@pytest.fixture(scope="session")
+def winding() -> Room:
+    """Return a course with turns of every kind."""
+    return Room(winding_course())
