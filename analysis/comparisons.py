@@ -16,6 +16,7 @@ from analysis.stats.effect_size import cohen_dz, rank_biserial
 from analysis.stats.holm import holm
 from analysis.stats.kolmogorov_smirnov import two_sample_ks
 from analysis.stats.mean_difference import mean_difference
+from analysis.stats.proportional_odds import proportional_odds
 from analysis.stats.ratio import mean_of_ratios, ratio_of_means
 from analysis.stats.result import TestResult
 from analysis.stats.signed_rank import signed_rank
@@ -49,6 +50,8 @@ class PairedComparison:
         Speedups, reference over condition; None for anything but times.
     equivalence
         TOST within the declared margin; None without one.
+    odds
+        Ordinal regression of an answer, a log odds ratio; None for anything else.
     p_holm
         The signed-rank p after Holm's correction within the family; NaN when not confirmatory.
     """
@@ -73,6 +76,7 @@ class PairedComparison:
     ratio_of_means: TestResult | None = None
     mean_of_ratios: TestResult | None = None
     equivalence: TestResult | None = None
+    odds: TestResult | None = None
     p_holm: float = math.nan
 
 
@@ -107,7 +111,9 @@ def item_comparisons(
         wide = answers_by_participant(frames, instrument, item)
         asked = [c for c in frames.conditions if wide[c].notna().any()]
         found += [
-            _compare(frames, wide, f"{instrument}.{item}", condition, reference)
+            _with_odds(
+                frames, wide, _compare(frames, wide, f"{instrument}.{item}", condition, reference)
+            )
             for reference, condition in itertools.combinations(asked, 2)
         ]
     return tuple(found)
@@ -122,6 +128,8 @@ def _declared(frames: StudyFrames, comparison: Comparison) -> PairedComparison:
     result = _compare(frames, wide, comparison.outcome, condition, reference)
     if comparison.item is None:
         result = _with_laps(frames, result)
+    else:
+        result = _with_odds(frames, wide, result)
     margin = comparison.equivalence_margin
     differences = wide[condition] - wide[reference]
     return replace(
@@ -174,6 +182,15 @@ def _with_laps(frames: StudyFrames, result: PairedComparison) -> PairedCompariso
         ratio_of_means=ratio_of_means(wide[reference], wide[condition], rng),
         mean_of_ratios=mean_of_ratios(wide[reference], wide[condition], rng),
     )
+
+
+def _with_odds(
+    frames: StudyFrames, wide: pd.DataFrame, result: PairedComparison
+) -> PairedComparison:
+    """Add what only answers have: an ordinal regression."""
+    condition, reference = result.condition, result.reference
+    rng = generator(frames.study, f"odds of {result.outcome}: {condition} - {reference}")
+    return replace(result, odds=proportional_odds(wide[condition], wide[reference], rng))
 
 
 def _mean(column: pd.Series) -> float:

@@ -1,9 +1,11 @@
 """Where on the floor plan something happened, as a smoothed density."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import pandas as pd
 import shapely
 from numpy.typing import NDArray
 from scipy import ndimage
@@ -60,6 +62,30 @@ def density(weight: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return smoothed counts as a density in 1/m^2 that integrates to 1; all NaN without any."""
     total = weight.sum()
     return weight / (total * CELL**2) if total > 0 else np.full(weight.shape, np.nan)
+
+
+def participant_maps(
+    steps: pd.DataFrame, participants: Sequence[str], grid: Grid
+) -> NDArray[np.float64]:
+    """Return each participant's smoothed counts of assisted steps, shape (participants, cells).
+
+    Parameters
+    ----------
+    steps
+        One row per step of one condition: participant, x_m, y_m, helped.
+    participants
+        The rows, in order; who was never helped is a row of zeros.
+    grid
+        Cells of the plan.
+    """
+    helped = steps[steps["helped"] == 1]
+    maps = np.zeros((len(participants), math.prod(grid.shape)))
+    groups = {str(who): g for who, g in helped.groupby("participant", observed=True)}
+    for row, who in enumerate(participants):
+        if who in groups:
+            x, y = (groups[who][c].to_numpy(dtype=np.float64) for c in ("x_m", "y_m"))
+            maps[row] = smoothed(counts(x, y, grid)).ravel()
+    return maps
 
 
 def overlap(f: NDArray[np.float64], g: NDArray[np.float64]) -> float:

@@ -14,9 +14,17 @@ from analysis.comparisons import (
 from analysis.flow import Flow, participants_flow
 from analysis.frames import StudyFrames, study_frames
 from analysis.lap_records import LapRecords, read_laps
+from analysis.maps import participant_maps, plan_grid
+from analysis.practice import practice_table
+from analysis.randomness import generator
+from analysis.roles import first, yardstick
+from analysis.stats.map_overlap import map_overlap
+from analysis.stats.mixed_model import lap_time_model
+from analysis.stats.result import TestResult
 from analysis.tables.against_paper import paper_table
 from analysis.tables.measures import measure_table
 from analysis.tables.reliability import reliability_table
+from analysis.tables.scales import scale_table
 from analysis.tables.sections import section_table
 from analysis.tables.survey import survey_table
 from protocols.instrument import Instrument
@@ -27,11 +35,12 @@ Progress = Callable[[str], None]
 
 @dataclass(frozen=True, slots=True)
 class SurveyResults:
-    """One questionnaire: answers by item and condition, and items compared between conditions."""
+    """One questionnaire: answers, items compared between conditions, composite scores."""
 
     instrument: Instrument
     table: pd.DataFrame
     comparisons: tuple[PairedComparison, ...]
+    scales: pd.DataFrame
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +59,12 @@ class StudyResults:
         Comparisons the protocol declares.
     lap_times
         Lap times of every two conditions, declared or not.
+    model
+        Mixed model of log lap times: every condition against the yardstick.
+    practice
+        What is left of the model's contrasts under plausible practice; see ``analysis.practice``.
+    overlap
+        Demonstrator's and model's assistance maps compared; None where there are not both.
     surveys
         One per instrument.
     measures, sections, reliability, paper
@@ -61,6 +76,9 @@ class StudyResults:
     records: LapRecords
     declared: tuple[PairedComparison, ...]
     lap_times: tuple[PairedComparison, ...]
+    model: tuple[TestResult, ...]
+    practice: pd.DataFrame
+    overlap: TestResult | None
     surveys: tuple[SurveyResults, ...]
     measures: pd.DataFrame
     sections: pd.DataFrame
@@ -81,6 +99,7 @@ def analyse(study: Study, progress: Progress | None = None) -> StudyResults:
     if progress is not None:
         progress("Comparing conditions")
     lap_times = lap_time_comparisons(frames)
+    model = _model(frames)
     surveys = tuple(_survey(frames, instrument) for instrument in study.instruments)
     measures = measure_table(frames, records)
     return StudyResults(
@@ -89,6 +108,9 @@ def analyse(study: Study, progress: Progress | None = None) -> StudyResults:
         records=records,
         declared=declared_comparisons(frames),
         lap_times=lap_times,
+        model=model,
+        practice=practice_table(frames, model),
+        overlap=_overlap(frames, records),
         surveys=surveys,
         measures=measures,
         sections=section_table(frames, records),
@@ -97,10 +119,30 @@ def analyse(study: Study, progress: Progress | None = None) -> StudyResults:
     )
 
 
+def _model(frames: StudyFrames) -> tuple[TestResult, ...]:
+    reference = yardstick(frames.parts)
+    if reference is None:
+        return ()
+    return lap_time_model(frames.laps, reference, generator(frames.study, "mixed model"))
+
+
+def _overlap(frames: StudyFrames, records: LapRecords) -> TestResult | None:
+    pair = first(frames.parts, "demonstrator"), first(frames.parts, "model")
+    if None in pair:
+        return None
+    grid = plan_grid(frames.study.course)
+    people = list(frames.participants["participant"])
+    maps = [
+        participant_maps(records.steps[records.steps["condition"] == c], people, grid) for c in pair
+    ]
+    return map_overlap(maps[0], maps[1], generator(frames.study, "map overlap"))
+
+
 def _survey(frames: StudyFrames, instrument: Instrument) -> SurveyResults:
     items = [item.id for item in instrument.items]
     return SurveyResults(
         instrument=instrument,
         table=survey_table(frames, instrument),
         comparisons=item_comparisons(frames, instrument.name, items),
+        scales=scale_table(frames, instrument),
     )

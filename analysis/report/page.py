@@ -13,6 +13,7 @@ from analysis.report.sections.measures import measure_section
 from analysis.report.sections.methods import methods_section
 from analysis.report.sections.model import model_section
 from analysis.report.sections.people import people_section
+from analysis.report.sections.practice import practice_section
 from analysis.report.sections.survey import survey_section
 from analysis.results import StudyResults
 
@@ -21,6 +22,7 @@ SECTIONS: tuple[Callable[[StudyResults], Section], ...] = (
     people_section,
     lap_time_section,
     comparison_section,
+    practice_section,
     map_section,
     measure_section,
     survey_section,

@@ -65,6 +65,19 @@ def interval(low: float, high: float, digits: int = 1) -> str:
     return f"{number(low, digits)} to {number(high, digits)}"
 
 
+def with_interval(value: float, low: float, high: float, digits: int = 1) -> str:
+    """Return a number and its interval, short enough for a table.
+
+    Examples
+    --------
+    >>> with_interval(-20.5, -24.3, -16.7), with_interval(1.0, float("nan"), 1.0)
+    ('−20.5 [−24.3, −16.7]', '1.0')
+    """
+    if not (math.isfinite(low) and math.isfinite(high)):
+        return number(value, digits)
+    return f"{number(value, digits)} [{number(low, digits)}, {number(high, digits)}]"
+
+
 def plural(n: int, one: str, many: str | None = None) -> str:
     """Return a count with its noun.
 

@@ -158,7 +158,7 @@ def _contrast(
         method=f"{_MODEL}, REML, Powell; t on {df} df; {lap}",
         checks=(
             "converged",
-            f"sd between participants {between:.3g}, residual sd {within:.3g} (log s)",
+            f"standard deviation between participants {between:.3g}, residual {within:.3g} (log s)",
         ),
         notes=remarks,
     )

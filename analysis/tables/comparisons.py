@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable
 
+import numpy as np
 import pandas as pd
 
 from analysis.comparisons import PairedComparison
@@ -57,6 +58,7 @@ def _row(c: PairedComparison) -> dict[str, object]:
         "wilcoxon_p_holm": c.p_holm,
         **_estimate("rank_biserial", c.rank_biserial),
         **_estimate("d_z", c.dz),
+        **_odds_ratio(c.odds),
         "ks_d": math.nan if c.ks is None else c.ks.statistic,
         "ks_p": math.nan if c.ks is None else c.ks.p,
         "tost_p": math.nan if c.equivalence is None else c.equivalence.p,
@@ -72,8 +74,14 @@ def _estimate(name: str, result: TestResult | None, factor: float = 1.0) -> dict
     return {name: factor * result.estimate, f"{name}_low": low, f"{name}_high": high}
 
 
+def _odds_ratio(result: TestResult | None) -> dict[str, float]:
+    """Return the odds ratio; an end that separates the two conditions is infinite or zero."""
+    found = _estimate("odds_ratio", result)
+    return {name: float(np.exp(value)) for name, value in found.items()}
+
+
 def _remarks(c: PairedComparison) -> list[str]:
-    parts = [c.signed_rank, c.rank_biserial, c.dz, c.difference, c.equivalence]
+    parts = [c.signed_rank, c.rank_biserial, c.dz, c.difference, c.equivalence, c.odds]
     results = [r for r in parts if r is not None]
     reasons = [f"{r.name}: {r.why_not}" for r in results if r.why_not is not None]
     return [*reasons, *c.signed_rank.notes]

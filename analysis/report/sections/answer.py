@@ -5,6 +5,7 @@ import math
 from analysis.comparisons import PairedComparison
 from analysis.figures.effects import effect_figure
 from analysis.outcomes import by_participant
+from analysis.practice import order_confounded
 from analysis.report.blocks import Block, Caution, Fact, Facts, Paragraph, Picture, Section
 from analysis.report.words import count, interval, is_p, number, percent, plural
 from analysis.results import StudyResults
@@ -108,12 +109,11 @@ def _cautions(results: StudyResults) -> list[str]:
             "imply; nothing on it is a finding about people. Questionnaire answers follow from "
             "assumed loadings in particular."
         )
-    positions = frames.laps.groupby("condition")["lap"].nunique()
-    if len(positions) > 1 and (positions == 1).all():
+    if order_confounded(frames):
         found.append(
-            "Everybody drove the conditions in the same order, each in one place of the session: "
-            "practice and condition are confounded. A difference between conditions may be "
-            "practice in part, and no test on these data can tell."
+            "The place of a lap in the session follows from its condition: practice and condition "
+            "are confounded. A difference between conditions may be practice in part, and no test "
+            "on these data can tell; the section on practice shows how much practice it would take."
         )
     return found
 

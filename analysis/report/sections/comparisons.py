@@ -5,7 +5,7 @@ from typing import Any
 
 from analysis.comparisons import PairedComparison
 from analysis.report.blocks import Block, Paragraph, Remarks, Section, Shown, table
-from analysis.report.words import count, interval, number, p_value
+from analysis.report.words import count, number, p_value, with_interval
 from analysis.results import StudyResults
 from analysis.tables.comparisons import comparison_table
 
@@ -20,18 +20,18 @@ def comparison_section(results: StudyResults) -> Section:
             "Confirmatory comparisons, as the protocol declared them before the first lap; p after "
             "Holm's correction within each family."
         )
-        blocks += _table("confirmatory", caption, confirmatory, [_NAME, *_PAIR, *_TEST, _HOLM])
+        blocks += _table("confirmatory", caption, confirmatory, [_NAMED, *_TEST, _HOLM])
     else:
         blocks.append(Paragraph("The protocol declares no confirmatory comparison."))
     if declared:
         caption = "Exploratory comparisons that the protocol declares; p not corrected."
-        blocks += _table("exploratory", caption, declared, [_NAME, *_PAIR, *_TEST, _TOST])
+        blocks += _table("exploratory", caption, declared, [_NAMED, *_TEST, _TOST])
     if results.lap_times:
         caption = (
             "Exploratory: lap times of every two conditions; p not corrected. Differences in "
             "seconds, condition minus reference. D and its p: Kolmogorov-Smirnov."
         )
-        columns = [*_PAIR, *_TEST, *_KS]
+        columns = [_PAIR, *_TEST, *_KS]
         blocks += _table("lap_time_comparisons", caption, results.lap_times, columns)
         blocks.append(Paragraph(_ABOUT_KS))
     return Section("comparisons", "Comparisons", tuple(blocks))
@@ -50,27 +50,30 @@ def _table(
     """Return tests and effect sizes of some comparisons, and remarks where there are any."""
     frame = comparison_table(comparisons)
     remarks = tuple(f"{r['name']}: {r['notes']}." for r in frame.to_dict("records") if r["notes"])
-    found = table(name, f"{caption} In parentheses: 95% intervals.", frame, [*columns, *_EFFECTS])
+    found = table(name, f"{caption} In brackets: 95% intervals.", frame, [*columns, *_EFFECTS])
     return [found, Remarks(remarks)] if remarks else [found]
 
 
 def _with_interval(title: str, name: str, digits: int) -> Shown:
     def cell(row: dict[str, Any]) -> str:
-        ends = interval(row[f"{name}_low"], row[f"{name}_high"], digits)
-        value = number(row[name], digits)
-        return f"{value} ({ends})" if ends != number(float("nan")) else value
+        return with_interval(row[name], row[f"{name}_low"], row[f"{name}_high"], digits)
 
     return Shown(title, cell)
 
 
-_NAME = Shown("name", lambda r: r["name"], words=True)
-_PAIR = [
-    Shown("condition", lambda r: r["condition"], words=True),
-    Shown("reference", lambda r: r["reference"], words=True),
-]
+def _pairs(row: dict[str, Any]) -> str:
+    missing = row["n_missing"]
+    return f"{row['n_pairs']} ({missing} missing)" if missing else count(row["n_pairs"])
+
+
+def _pair(row: dict[str, Any]) -> str:
+    return f"{row['condition']} − {row['reference']}"
+
+
+_NAMED = Shown("condition − reference", lambda r: f"{r['name']}: {_pair(r)}", words=True)
+_PAIR = Shown("condition − reference", _pair, words=True)
 _TEST = [
-    Shown("pairs", lambda r: count(r["n_pairs"])),
-    Shown("missing", lambda r: count(r["n_missing"])),
+    Shown("pairs", _pairs),
     Shown("T+", lambda r: number(r["wilcoxon_statistic"])),
     Shown("p", lambda r: p_value(r["wilcoxon_p"])),
 ]

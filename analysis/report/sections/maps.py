@@ -3,8 +3,9 @@
 from analysis.figures.assistance_map import assistance_map
 from analysis.figures.section_shares import section_figure
 from analysis.report.blocks import Block, Paragraph, Picture, Section, Shown, table
-from analysis.report.words import count, percent
+from analysis.report.words import count, interval, is_p, number, percent
 from analysis.results import StudyResults
+from analysis.stats.result import TestResult
 
 
 def map_section(results: StudyResults) -> Section:
@@ -25,6 +26,7 @@ def map_section(results: StudyResults) -> Section:
             f"Floor plans with driven paths and where assistance was given. {_most(results)}",
             assistance_map(results.records.steps, frames.study.course, helped),
         ),
+        Paragraph(_overlap(results.overlap)),
         Picture(
             "section_shares",
             "Share of assisted steps in each section of the course, in driving order. Black "
@@ -36,6 +38,20 @@ def map_section(results: StudyResults) -> Section:
               _COLUMNS),
     ]  # fmt: skip
     return Section("assistance", "Where assistance was given", tuple(blocks))
+
+
+def _overlap(found: TestResult | None) -> str:
+    if found is None:
+        return "There is no second source of assistance to compare the map with."
+    if not found.computed:
+        return f"How far the two maps overlap cannot be computed: {found.why_not}."
+    return (
+        f"Overlap of the demonstrator's and the model's map: {number(found.estimate, 2)} (95% "
+        f"{interval(found.low, found.high, 2)}; 0 disjoint, 1 the same; n = {found.n} participants"
+        f"{''.join(f'; {note}' for note in found.notes)}). Exchanging the two sources within "
+        f"participants gives as little overlap or less with {is_p(found.p)}: a small p means that "
+        "the two helped in different places or with different spread."
+    )
 
 
 def _most(results: StudyResults) -> str:

@@ -1,5 +1,7 @@
 """The questionnaires."""
 
+import math
+
 import pandas as pd
 
 from analysis.comparisons import PairedComparison
@@ -48,7 +50,8 @@ def _instrument(results: StudyResults, survey: SurveyResults) -> list[Block]:
         blocks.append(
             table(f"items_{instrument.name}", f"Exploratory: {helpers[0].condition} (condition) "
                   f"against {helpers[0].reference} (reference), item by item. "
-                  "Wilcoxon signed-rank, exact, mid-ranks, zeros after Pratt; p not corrected.",
+                  "Wilcoxon signed-rank, exact, mid-ranks, zeros after Pratt; p not corrected. "
+                  "Odds of a higher answer: ordinal regression, bootstrap over participants.",
                   _with_agreement(helpers, answers), [_TESTS[0], *_AGREEMENT, *_TESTS[3:]])
         )  # fmt: skip
     others = [c for c in survey.comparisons if c not in helpers]
@@ -58,6 +61,11 @@ def _instrument(results: StudyResults, survey: SurveyResults) -> list[Block]:
                   "conditions after which they were asked; p not corrected.",
                   comparison_table(others), _TESTS, folded=True)
         )  # fmt: skip
+    blocks.append(
+        table(f"scales_{instrument.name}", "Composite scores: mean of a subscale's items, "
+              "reverse-coded items turned, over complete answer sheets; Cronbach's alpha with "
+              "Feldt's interval.", survey.scales, _SCALES, folded=True)
+    )  # fmt: skip
     return blocks
 
 
@@ -87,6 +95,13 @@ def _said(survey: SurveyResults) -> str:
     )
 
 
+def _odds(low: float, high: float) -> str:
+    """Return an interval of which an end may be 0 or without bound."""
+    if math.isnan(low) or math.isnan(high):
+        return NOTHING
+    return f"{number(low, 2)} to {'∞' if math.isinf(high) else number(high, 2)}"
+
+
 _ANSWERS = [
     Shown("item", lambda r: r["item"], words=True),
     Shown("text", lambda r: r["text"], words=True),
@@ -110,5 +125,19 @@ _TESTS = [
     Shown("p", lambda r: p_value(r["wilcoxon_p"])),
     Shown("rank-biserial", lambda r: number(r["rank_biserial"], 2)),
     Shown("95%", lambda r: interval(r["rank_biserial_low"], r["rank_biserial_high"], 2)),
+    Shown("odds ratio", lambda r: number(r["odds_ratio"], 2)),
+    Shown("95%", lambda r: _odds(r["odds_ratio_low"], r["odds_ratio_high"])),
     Shown("remarks", lambda r: r["notes"] or NOTHING, words=True),
+]
+_SCALES = [
+    Shown("subscale", lambda r: r["subscale"], words=True),
+    Shown("condition", lambda r: r["condition"], words=True),
+    Shown("items", lambda r: count(r["items"])),
+    Shown("n", lambda r: count(r["n"])),
+    Shown("incomplete", lambda r: count(r["incomplete"])),
+    Shown("mean", lambda r: number(r["mean"], 2)),
+    Shown("sd", lambda r: number(r["sd"], 2)),
+    Shown("alpha", lambda r: number(r["alpha"], 2)),
+    Shown("95%", lambda r: interval(r["alpha_low"], r["alpha_high"], 2)),
+    Shown("remarks", lambda r: r["note"] or NOTHING, words=True),
 ]

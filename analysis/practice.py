@@ -1,0 +1,88 @@
+"""How much practice alone would have to do to explain a difference."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+
+from analysis.frames import StudyFrames
+from analysis.roles import yardstick
+from analysis.stats.mixed_model import lap_time_design
+from analysis.stats.result import TestResult
+
+PLAUSIBLE = (0.0, 2.5, 5.0, 10.0, 15.0, 20.0)
+"""Shares of the lap time that practice may save from one lap to the next, %."""
+
+
+def order_confounded(frames: StudyFrames) -> bool:
+    """Tell whether the lap's place in the session follows from its condition."""
+    timed = frames.laps.dropna(subset=["lap_time_s"])
+    reference = yardstick(frames.parts)
+    if reference is None or timed["condition"].nunique() < 2:
+        return False
+    return not lap_time_design(timed, reference).with_lap
+
+
+def practice_table(frames: StudyFrames, model: Sequence[TestResult]) -> pd.DataFrame:
+    """Return what is left of each difference if practice had done a plausible part of it.
+
+    Practice is assumed to save the same share of the time from every lap to the next.
+
+    Parameters
+    ----------
+    frames
+        The study.
+    model
+        As ``analysis.stats.mixed_model.lap_time_model`` returns it, against the yardstick.
+
+    Returns
+    -------
+    DataFrame
+        One row per contrast and assumed saving (``practice_percent`` per lap): ``laps_apart``,
+        the remaining ``ratio`` of lap times with ``ratio_low`` and ``ratio_high``, and
+        ``explains_percent``: the saving per lap at which the interval would reach 1 (NaN where
+        practice works in the other direction). Empty where the order is not confounded.
+    """
+    columns = ["condition", "reference", "laps_apart", "practice_percent", "ratio", "ratio_low",
+               "ratio_high", "explains_percent"]  # fmt: skip
+    rows: list[dict[str, object]] = []
+    if order_confounded(frames):
+        places = frames.laps.groupby("condition")["lap"].mean()
+        for contrast in model:
+            condition, _, reference = contrast.name.partition(" against ")
+            if contrast.computed:
+                apart = float(places[condition] - places[reference])
+                rows += _rows(contrast, condition, reference, apart)
+    return pd.DataFrame(rows, columns=columns)
+
+
+def _rows(
+    contrast: TestResult, condition: str, reference: str, apart: float
+) -> list[dict[str, object]]:
+    found = []
+    for percent in PLAUSIBLE:
+        saved = apart * math.log1p(-percent / 100)  # in log time; 0 or below for later laps
+        ends = np.exp(np.array([contrast.estimate, contrast.low, contrast.high]) - saved)
+        found.append(
+            {
+                "condition": condition,
+                "reference": reference,
+                "laps_apart": apart,
+                "practice_percent": percent,
+                "ratio": float(ends[0]),
+                "ratio_low": float(ends[1]),
+                "ratio_high": float(ends[2]),
+                "explains_percent": _explains(contrast, apart),
+            }
+        )
+    return found
+
+
+def _explains(contrast: TestResult, apart: float) -> float:
+    """Return the saving per lap, in %, at which the interval's nearer end reaches no effect."""
+    nearer = contrast.high if contrast.estimate < 0 else contrast.low
+    if apart == 0 or nearer * contrast.estimate <= 0:
+        return math.nan if apart == 0 else 0.0
+    per_lap = nearer / apart
+    return 100 * -math.expm1(per_lap) if per_lap < 0 else math.nan

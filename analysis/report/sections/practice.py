@@ -1,0 +1,119 @@
+"""The mixed model of lap times, and how much practice could explain."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import pandas as pd
+
+from analysis.report.blocks import Block, Paragraph, Remarks, Section, Shown, table
+from analysis.report.words import count, interval, number, p_value, percent, with_interval
+from analysis.results import StudyResults
+from analysis.stats.result import TestResult
+
+
+def practice_section(results: StudyResults) -> Section:
+    """Return the model's contrasts, and what is left of them under plausible practice."""
+    blocks: list[Block] = []
+    if results.model:
+        caption = (
+            "Exploratory: log lap time ~ condition + (1 | participant). Ratios of (geometric mean) "
+            "lap times, condition / reference: below 1 the condition is faster."
+        )
+        blocks.append(table("mixed_model", caption, _contrasts(results.model), _MODEL))
+        blocks.append(Remarks(_about(results.model)))
+    else:
+        blocks.append(Paragraph("There are no two conditions to model."))
+    if not results.practice.empty:
+        blocks += _practice(results.practice)
+    return Section("practice", "Mixed model and practice", tuple(blocks))
+
+
+def _contrasts(model: Sequence[TestResult]) -> pd.DataFrame:
+    return pd.DataFrame(
+        [
+            {
+                "contrast": found.name,
+                "n": found.n,
+                "log_ratio": found.estimate,
+                "ratio": math.exp(found.estimate),
+                "ratio_low": math.exp(found.low),
+                "ratio_high": math.exp(found.high),
+                "t": found.statistic,
+                "p": found.p,
+                "method": found.method,
+                "notes": "; ".join([*found.checks, *found.notes, found.why_not or ""]).strip("; "),
+            }
+            for found in model
+        ]
+    )
+
+
+def _about(model: Sequence[TestResult]) -> tuple[str, ...]:
+    """Return what was used and what was checked, each once."""
+    said = [found.method for found in model if found.method]
+    said += [check for found in model for check in found.checks]
+    said += [note for found in model for note in found.notes]
+    said += [f"{found.name}: {found.why_not}" for found in model if found.why_not]
+    return tuple(f"{text[0].upper()}{text[1:].rstrip('.')}." for text in dict.fromkeys(said))
+
+
+def _practice(frame: pd.DataFrame) -> list[Block]:
+    tipping = frame.drop_duplicates(["condition", "reference"]).to_dict("records")
+    return [
+        Paragraph(
+            "The place of a lap in the session follows from its condition: the model matrix with "
+            "both would be singular, so practice and condition are confounded. Instead, the table "
+            "shows what is left of each ratio if practice had saved a given share of the time from "
+            "every lap to the next."
+        ),
+        replace(
+            table("practice", "Ratio of lap times left, with 95% intervals, if practice had saved this "
+                  "share of the time per lap.", _side_by_side(frame), _columns(frame)),
+            frame=frame,
+        ),
+        Remarks(tuple(_tipping({str(k): v for k, v in row.items()}) for row in tipping)),
+    ]  # fmt: skip
+
+
+def _side_by_side(frame: pd.DataFrame) -> pd.DataFrame:
+    """Return one row per contrast, with a cell of text per assumed practice."""
+    rows: dict[tuple[str, str], dict[str, str]] = {}
+    for r in frame.to_dict("records"):
+        pair = r["condition"], r["reference"]
+        row = rows.setdefault(pair, {"pair": " against ".join(pair)})
+        left = with_interval(r["ratio"], r["ratio_low"], r["ratio_high"], 2)
+        row[_share(r["practice_percent"])] = left
+    return pd.DataFrame(list(rows.values()))
+
+
+def _columns(frame: pd.DataFrame) -> list[Shown]:
+    def cell(share: str) -> Shown:
+        return Shown(share, lambda r: r[share])
+
+    shares = dict.fromkeys(_share(p) for p in frame["practice_percent"])
+    return [Shown("contrast", lambda r: r["pair"], words=True), *(cell(s) for s in shares)]
+
+
+def _share(practice: float) -> str:
+    return f"{practice:g}%"
+
+
+def _tipping(row: dict[str, Any]) -> str:
+    pair, at = f"{row['condition']} against {row['reference']}", row["explains_percent"]
+    if math.isnan(at):
+        return f"{pair}: practice would work in the other direction; it cannot explain this."
+    if at == 0:
+        return f"{pair}: no difference is shown that practice would have to explain."
+    return f"{pair}: practice would have to save {percent(at, 1)} per lap to explain it."
+
+
+_MODEL = [
+    Shown("contrast", lambda r: r["contrast"], words=True),
+    Shown("participants", lambda r: count(r["n"])),
+    Shown("ratio", lambda r: number(r["ratio"], 3)),
+    Shown("95%", lambda r: interval(r["ratio_low"], r["ratio_high"], 3)),
+    Shown("t", lambda r: number(r["t"], 2)),
+    Shown("p", lambda r: p_value(r["p"])),
+]
