@@ -132,7 +132,12 @@ def watch(health: Health, matrix: KernelMatrix, new: int, novelty: float) -> Non
         other = matrix.residual_of_column(health.probes // ROUND_EVERY % state.n)
         health.residual = max(health.residual, other)
     if health.residual > health.limit:
-        matrix.invert_into_Q()
-        health.repairs += 1
+        repair(health, matrix)
         health.residual = matrix.residual_of_column(slot)
         health.limit = max(LIMIT, 10.0 * health.residual)
+
+
+def repair(health: Health, matrix: KernelMatrix) -> None:
+    """Compute Q anew, and count it."""
+    matrix.invert_into_Q()
+    health.repairs += 1

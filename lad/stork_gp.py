@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lad import fused
-from lad.health import Health, KernelMatrix, watch
+from lad.health import Health, KernelMatrix, repair, watch
 from lad.hyperparameters import GPHyperparameters
 from lad.likelihood import LikelihoodName, check_outputs, check_target, evidence
 from lad.model_file import pack, read, rebuilding, unpack, write_whole
@@ -160,6 +160,10 @@ class StorkGP:
     def residual(self) -> float:
         """Largest entry of |QK - I|, exactly: the price is one prediction per basis vector."""
         return self._kernel_matrix.residual()
+
+    def repair(self) -> None:
+        """Compute Q anew from the kernel matrix, as the watch does when it must; counted."""
+        repair(self.health, self._kernel_matrix)
 
     def learn(self, y: object) -> Update:
         """Learn the target of the window as it stands.
