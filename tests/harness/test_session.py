@@ -41,7 +41,7 @@ SHORT = {
 
 @pytest.fixture(scope="module")
 def plan(tmp_path_factory):
-    """A short study of every kind of lap."""
+    """Return a short study of every kind of lap."""
     path = tmp_path_factory.mktemp("protocol") / "short.yaml"
     path.write_text(json.dumps(SHORT))
     return Plan(resolve_study(str(path)), 5)
@@ -49,13 +49,13 @@ def plan(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def world():
-    """The default course."""
+    """Return a world with the default course."""
     return BulletWorld(load_course("lab-office"))
 
 
 @pytest.fixture(scope="module")
 def record(plan, world):
-    """The first participant's session."""
+    """Return the first participant's session."""
     return Session(plan, 1, world).run()
 
 
