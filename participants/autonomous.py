@@ -6,6 +6,7 @@ import numpy as np
 
 from lad.command import Command
 from participants.dwa import DynamicWindow, choose
+from participants.localisation import Localisation
 from participants.options import NoOptions, read_options
 from participants.planning.field import scan_field
 from participants.planning.route import Route, plan
@@ -34,6 +35,8 @@ class AutonomousDriver:
         The global path.
     raster
         Its map.
+    rng
+        Random numbers of its localisation until a lap brings others.
     window
         Settings of the local planner.
     lookahead
@@ -44,6 +47,7 @@ class AutonomousDriver:
         self,
         route: Route,
         raster: Occupancy,
+        rng: np.random.Generator,
         window: DynamicWindow | None = None,
         lookahead: float = 0.9,
     ) -> None:
@@ -51,11 +55,13 @@ class AutonomousDriver:
         self._raster = raster
         self._window = window if window is not None else DynamicWindow()
         self._lookahead = lookahead
+        self._localisation = Localisation(rng)
         self._arc: float | None = None
         self._recovery = Recovery(self._raster, PATIENCE)
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:  # noqa: ARG002  # the seam's
         """Look for itself on the path anew."""
+        self._localisation = Localisation(rng)
         self._arc = None
         self._recovery = Recovery(self._raster, PATIENCE)
 
@@ -75,15 +81,16 @@ class AutonomousDriver:
 
     def _target(self, sight: Sight) -> tuple[float, float]:
         """Return the point ahead on the path in the chair's frame, m."""
-        arc = self._route.locate(sight.pose, sight.gates_passed, self._arc).arc
+        here = self._localisation.estimate(sight.t, sight.pose)
+        arc = self._route.locate(here, sight.gates_passed, self._arc).arc
         self._arc = arc
         aim = self._route.point(arc + self._lookahead)
-        dx, dy = aim.x - sight.pose.x, aim.y - sight.pose.y
-        c, s = math.cos(sight.pose.heading), math.sin(sight.pose.heading)
+        dx, dy = aim.x - here.x, aim.y - here.y
+        c, s = math.cos(here.heading), math.sin(here.heading)
         return c * dx + s * dy, c * dy - s * dx
 
 
 def autonomous_driver(setup: DriverSetup) -> AutonomousDriver:
     """Return the autonomous driver for a course; it takes no options."""
     read_options("driver 'autonomous'", NoOptions, setup.options)
-    return AutonomousDriver(plan(setup.course), known_raster(setup.course))
+    return AutonomousDriver(plan(setup.course), known_raster(setup.course), setup.rng)
