@@ -46,11 +46,20 @@ WORLD: tuple[Wrapped, ...] = (
 )
 
 
-def print_splits(boxes: int, rays: int, rate_hz: int) -> None:
-    """Print the split of the timed lap, and of a participant's whole session with the model."""
+def print_splits(cell: tuple[int, int, int], seconds: float) -> None:
+    """Print the split of the timed lap, and of a participant's whole session with the model.
+
+    Parameters
+    ----------
+    cell
+        Boxes, rays and control steps per second of the lap.
+    seconds
+        How long the lap is driven.
+    """
+    boxes, rays, rate_hz = cell
     simulator = LadStudy(synthetic_course(boxes), rays, rate_hz)
     lap = _split(
-        lambda: simulator.drive_lap(20.0),
+        lambda: simulator.drive_lap(seconds),
         (
             *WORLD,
             (AutonomousDriver, "act", "driver"),
@@ -61,7 +70,7 @@ def print_splits(boxes: int, rays: int, rate_hz: int) -> None:
     print("\nWhere our CPU time goes, as shares\n")
     print(f"| | {' | '.join(STAGES)} | CPU s |")
     print(f"|---|{'---:|' * (len(STAGES) + 1)}")
-    _print_row(f"whole lap, {boxes} boxes, {rays} rays, {rate_hz} Hz, 20 s", lap)
+    _print_row(f"whole lap, {boxes} boxes, {rays} rays, {rate_hz} Hz, {seconds:g} s", lap)
     _print_row("a session of four-lap, participant 1", _session())
 
 
