@@ -1,13 +1,17 @@
 """Room grows until capacity, then never again."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from lad.hyperparameters import GPHyperparameters
+from lad.snapshot import restore_state, state_arrays
 from lad.state import LINE, State, aligned_zeros
 from lad.stork_gp import StorkGP
+from lad.stream import learn_stream
 
 
 @pytest.mark.parametrize("shape", [(3, 8), (1, 16), (4, 2, 24)])
@@ -48,3 +52,20 @@ def test_memory_is_constant_at_capacity():
             addresses.append([(a.ctypes.data, a.nbytes) for a in arrays])
     assert process.n_basis == 40
     assert addresses[0] == addresses[1]
+
+
+@pytest.mark.parametrize("novelty", [1e-4, 0.99999])
+def test_no_temporaries_of_the_size_of_a_matrix(stream, make_hyperparameters, novelty):
+    """A step with 200 vectors, deleting or sparse, allocates less than a tenth of one matrix."""
+    x, y = stream(0, 300, 0.05)
+    trained = StorkGP(make_hyperparameters(capacity=200), n_outputs=2)
+    learn_stream(trained, x[:220], y[:220])
+    process = StorkGP(make_hyperparameters(capacity=200, novelty=novelty), n_outputs=2)
+    restore_state(process.state, state_arrays(trained.state))
+    learn_stream(process, x[220:230], y[220:230])
+    tracemalloc.start()
+    learn_stream(process, x[230:], y[230:])
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert process.n_basis == 200
+    assert peak < 200 * 200 * 8 / 10
