@@ -20,11 +20,19 @@ class Part:
         Full control without help; limited without help; helped by a demonstrator or the model.
     demonstrations
         Training laps driven before the condition's first lap.
+    training
+        Whether the model learns during the condition's laps.
     """
 
     condition: str
     role: Role
     demonstrations: int
+    training: bool = False
+
+    @property
+    def taught(self) -> bool:
+        """Whether the model has been shown something before or during the condition's laps."""
+        return self.training or self.demonstrations > 0
 
 
 def cast(protocol: StudyProtocol) -> tuple[Part, ...]:
@@ -43,7 +51,7 @@ def cast(protocol: StudyProtocol) -> tuple[Part, ...]:
         if not lap.practice and lap.condition not in parts:
             alone: Role = "limited" if condition.limitation else "baseline"
             role = alone if condition.assistant == "none" else condition.assistant
-            parts[lap.condition] = Part(lap.condition, role, demonstrations)
+            parts[lap.condition] = Part(lap.condition, role, demonstrations, condition.training)
         demonstrations += condition.training
     return tuple(parts.values())
 

@@ -8,10 +8,13 @@ import pandas as pd
 
 from analysis.comparisons import PairedComparison
 from analysis.frames import StudyFrames
-from analysis.outcomes import values
+from analysis.outcomes import by_participant, values
 from analysis.paper import PaperFigure, paper_figure
+from analysis.randomness import generator
 from analysis.roles import Part, first
 from analysis.stats.describe import describe
+from analysis.stats.ratio import mean_of_ratios
+from analysis.stats.result import TestResult
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,19 +83,31 @@ def _speedups(frames: StudyFrames, comparisons: Iterable[PairedComparison]) -> I
     parts = {part.condition: part for part in frames.parts}
     limited, baseline = first(frames.parts, "limited"), first(frames.parts, "baseline")
     for c in comparisons:
-        part, ratio, gain = parts[c.condition], c.ratio_of_means, c.difference
-        if ratio is None or gain is None:
+        part = parts[c.condition]
+        if c.ratio_of_means is None or c.mean_of_ratios is None or c.difference is None:
             continue
         if c.reference == limited:
-            what = f"{c.condition}: speedup over {limited}, ratio of means"
-            low, high = 100 * ratio.low, 100 * ratio.high
-            yield _Ours(part, "speedup", what, 100 * ratio.estimate, low, high)
+            for ratio in (c.ratio_of_means, c.mean_of_ratios):
+                what = f"{c.condition}: speedup over {limited}, {ratio.name}"
+                ends = [100 * r for r in (ratio.estimate, ratio.low, ratio.high)]
+                yield _Ours(part, "speedup", what, *ends)
             what = f"{c.condition}: seconds gained over {limited}"
+            gain = c.difference
             yield _Ours(part, "gain", what, -gain.estimate, -gain.high, -gain.low)
         if c.reference == baseline and c.condition == limited:
-            what = f"{limited}: increase over {baseline}, ratio of means"
-            more = [100 * (1 / r - 1) for r in (ratio.estimate, ratio.high, ratio.low)]
-            yield _Ours(part, "increase", what, *more)
+            yield from _increase(frames, part, baseline, c.ratio_of_means)
+
+
+def _increase(frames: StudyFrames, part: Part, baseline: str, ratio: TestResult) -> Iterator[_Ours]:
+    """Yield the increase through the limitation, both ways; either may be the paper's 62%."""
+    what = f"{part.condition}: increase over {baseline}"
+    more = [100 * (1 / r - 1) for r in (ratio.estimate, ratio.high, ratio.low)]
+    yield _Ours(part, "increase", f"{what}, ratio of means", *more)
+    wide = by_participant(frames, "lap_time_s")
+    rng = generator(frames.study, "increase through the limitation")
+    found = mean_of_ratios(wide[part.condition], wide[baseline], rng)
+    more = [100 * (r - 1) for r in (found.estimate, found.low, found.high)]
+    yield _Ours(part, "increase", f"{what}, mean of ratios", *more)
 
 
 def _agreement(frames: StudyFrames, surveys: Iterable[pd.DataFrame]) -> Iterator[_Ours]:

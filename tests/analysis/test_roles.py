@@ -9,6 +9,7 @@ def test_the_four_laps_have_their_parts():
     parts = cast(load_protocol("four-lap"))
     assert [p.role for p in parts] == ["baseline", "limited", "demonstrator", "model"]
     assert [p.demonstrations for p in parts] == [0, 0, 0, 1]
+    assert [p.taught for p in parts] == [False, False, True, True]
     assert first(parts, "model") == "model-assisted"
     assert yardstick(parts) == "limited"
 

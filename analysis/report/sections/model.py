@@ -8,7 +8,12 @@ from analysis.results import StudyResults
 
 def model_section(results: StudyResults) -> Section:
     """Return AUC, Brier score and calibration against the shadow demonstrator."""
+    taught = tuple(part for part in results.frames.parts if part.taught)
+    conditions = [part.condition for part in taught]
     measures = results.records.measures
+    measures = measures[measures["condition"].isin(conditions)]
+    reliability = results.reliability
+    reliability = reliability[reliability["condition"].isin(conditions)]
     auc = measures.groupby("condition", sort=False)["when_auc"].agg(["count", "median"])
     said = "; ".join(
         f"{condition} median AUC {number(row['median'], 3)} over {int(row['count'])} laps"
@@ -24,12 +29,13 @@ def model_section(results: StudyResults) -> Section:
                 "Left: area under the ROC curve of p(h = 1 | x) against what the demonstrator did "
                 "or, as a shadow, would have done, lap by lap (bar: median; dotted: chance). "
                 "Right: reliability, steps pooled in tenths of p. Predictions were recorded before "
-                "the model learnt from a step: they are out of sample.",
+                "the model learnt from a step: they are out of sample. Laps before the first "
+                "demonstration are left out: there the model knows nothing and says so.",
                 f"Model quality: {said or 'nothing to compare'}.",
-                model_figure(measures, results.reliability, results.frames.parts),
+                model_figure(measures, reliability, taught),
             ),
             table("reliability", "Reliability of p(h = 1 | x), pooled over laps.",
-                  results.reliability, _COLUMNS, folded=True),
+                  reliability, _COLUMNS, folded=True),
         ),
     )  # fmt: skip
 

@@ -69,8 +69,8 @@ def _practice(frame: pd.DataFrame) -> list[Block]:
             "every lap to the next."
         ),
         replace(
-            table("practice", "Ratio of lap times left, with 95% intervals, if practice had saved this "
-                  "share of the time per lap.", _side_by_side(frame), _columns(frame)),
+            table("practice", "Ratio of lap times left, with 95% intervals, if practice had saved "
+                  "this share of the time per lap.", _side_by_side(frame), _columns(frame)),
             frame=frame,
         ),
         Remarks(tuple(_tipping({str(k): v for k, v in row.items()}) for row in tipping)),
