@@ -1,8 +1,8 @@
 """The table a person wants to see when a study has been run."""
 
+import math
 from pathlib import Path
 
-import pandas as pd
 from rich import box
 from rich.table import Table
 
@@ -18,20 +18,19 @@ def print_lap_times(folder: Path) -> None:
     table.add_column("condition")
     for heading in ("n", "mean s", "sd", "median", "speedup", "paper s"):
         table.add_column(heading, justify="right")
-    for row in lap_summary(open_study(folder)).itertuples():
-        finished = f"{row.n}" if not row.unfinished else f"{row.n} (+{row.unfinished} unfinished)"
+    for row in lap_summary(open_study(folder)).to_dict("records"):
+        unfinished = f" (+{row['unfinished']} unfinished)" if row["unfinished"] else ""
         table.add_row(
-            str(row.condition),
-            finished,
-            _number(row.mean_s),
-            _number(row.sd_s),
-            _number(row.median_s),
-            _number(row.speedup_percent, "%", 0),
-            _number(row.paper_mean_s),
+            row["condition"],
+            f"{row['n']}{unfinished}",
+            _number(row["mean_s"]),
+            _number(row["sd_s"]),
+            _number(row["median_s"]),
+            _number(row["speedup_percent"], "%", 0),
+            _number(row["paper_mean_s"]),
         )
     OUT.print(table)
 
 
-def _number(value: object, unit: str = "", places: int = 1) -> str:
-    number = float(str(value))
-    return "-" if pd.isna(number) else f"{number:.{places}f}{unit}"
+def _number(value: float, unit: str = "", places: int = 1) -> str:
+    return "-" if math.isnan(value) else f"{value:.{places}f}{unit}"
