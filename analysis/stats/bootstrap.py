@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-RESAMPLES = 4999
+RESAMPLES = 1999
 FEWEST = 6
 """Below this many participants a bootstrap interval promises more than it can keep."""
 
