@@ -185,14 +185,14 @@ def main() -> None:
         repetitions = arguments.repetitions or (7 if cell == REFERENCE else 3)
         rows += measure(cell, factories, repetitions)
         print(f"{cell.boxes} boxes, {cell.rays} rays, {cell.rate_hz} Hz done", file=sys.stderr)
-    for part in PARTS:
-        print_table(rows, part)
-    print_ray_cost(REFERENCE.rays)
-    print_splits(astuple(REFERENCE), SECONDS["whole lap"])
     if arguments.json:
         arguments.json.write_text(json.dumps([asdict(row) for row in rows], indent=1) + "\n")
     if arguments.plot or not arguments.quick:
         plot([asdict(row) for row in rows], arguments.plot or FIGURE)
+    for part in PARTS:
+        print_table(rows, part)
+    print_ray_cost(REFERENCE.rays)
+    print_splits(astuple(REFERENCE), SECONDS["whole lap"])
 
 
 if __name__ == "__main__":
