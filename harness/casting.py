@@ -1,13 +1,16 @@
 """Who takes part in one session: the person, and whoever else the protocol names."""
 
+from dataclasses import replace
+
 from harness.lap import Cast
 from harness.model import make_model
 from harness.plan import Plan
 from harness.seeds import stream
 from participants.cohort import Person
 from participants.cohort import draw_person as drawn_from_cohort
-from participants.registry import make_demonstrator, make_driver, make_respondent
-from participants.setup import DemonstratorSetup, DriverSetup, RespondentSetup
+from participants.driver import Driver
+from participants.registry import make_demonstrator, make_driver, make_impaired, make_respondent
+from participants.setup import DemonstratorSetup, DriverSetup, ImpairmentSetup, RespondentSetup
 from participants.survey import Question, Respondent
 from protocols.instrument import Instrument, Item
 
@@ -22,6 +25,8 @@ def rehearse(plan: Plan) -> None:
     """
     person = draw_person(plan, 1)
     cast(plan, 1, person)
+    for impairment in plan.study.protocol.cohort.impairments:
+        cast(plan, 1, replace(person, impairment=impairment))
     respondent(plan, 1, person)
 
 
@@ -46,10 +51,20 @@ def cast(plan: Plan, number: int, person: Person) -> Cast:
         options=cohort.demonstrator.options,
     )
     return Cast(
-        driver=make_driver(cohort.driver.use, driver),
+        driver=_impaired(plan, number, person, make_driver(cohort.driver.use, driver)),
         demonstrator=make_demonstrator(cohort.demonstrator.use, demonstrator),
         model=make_model(study.protocol.model),
     )
+
+
+def _impaired(plan: Plan, number: int, person: Person, driver: Driver) -> Driver:
+    """Return a driver with the person's impairment, if the person has one."""
+    impairment = person.impairment
+    if impairment is None:
+        return driver
+    rng = stream(plan.seed, number, "impairment")
+    setup = ImpairmentSetup(driver, impairment.severity, rng, impairment.options)
+    return make_impaired(impairment.use, setup)
 
 
 def respondent(plan: Plan, number: int, person: Person) -> Respondent:

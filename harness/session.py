@@ -119,6 +119,7 @@ class Session:
             participant=participant_id(self._number),
             kind="scripted" if protocol.cohort.driver.use == "scripted" else "synthetic",
             driver=protocol.cohort.driver.use,
+            impairment="none" if person.impairment is None else person.impairment.use,
             age_years=person.age_years,
             gender=person.gender,
             handedness=person.handedness,

@@ -7,9 +7,13 @@ from functools import lru_cache
 import numpy as np
 
 from participants.demographics import draw_particulars
-from participants.population import PRIOR, TRAITS, Population
+from participants.impairments.assignment import assigned
+from participants.population import PEOPLE, TRAITS, Marginal
 from participants.traits import ResponseStyle, Traits
-from protocols.cohort import Cohort
+from protocols.cohort import Cohort, ImpairmentChoice
+
+SEVERITY = "impairment_severity"
+"""Name under which the record keeps an impairment's severity among the traits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +30,8 @@ class Person:
         Age.
     gender, handedness
         As the record has them.
+    impairment
+        The protocol's impairment that this person has; None for none.
     """
 
     traits: Traits
@@ -33,25 +39,34 @@ class Person:
     age_years: int
     gender: str
     handedness: str
+    impairment: ImpairmentChoice | None = None
 
     def as_numbers(self) -> dict[str, float]:
         """Return every trait by name, for the record; units are part of the names."""
-        return {**asdict(self.traits), **asdict(self.style)}
+        severity = {} if self.impairment is None else {SEVERITY: self.impairment.severity}
+        return {**asdict(self.traits), **asdict(self.style), **severity}
 
 
-def draw_person(cohort: Cohort, rng: np.random.Generator, population: Population = PRIOR) -> Person:
+def draw_person(cohort: Cohort, rng: np.random.Generator) -> Person:
     """Draw a synthetic participant.
 
     Parameters
     ----------
     cohort
-        The protocol's cohort: what ages, and which shares of genders and hands.
+        The protocol's cohort: which ages, shares of genders and hands, impairments, and traits
+        that are distributed otherwise than calibrated.
     rng
         This person's own random numbers.
-    population
-        How traits are distributed.
+
+    Raises
+    ------
+    InputError
+        When the cohort's traits do not exist or cannot have such medians.
     """
-    for_traits, for_particulars = rng.spawn(2)
+    for_traits, for_particulars, for_impairment = rng.spawn(3)
+    population = PEOPLE.with_marginals(
+        {name: Marginal(given.median, given.spread) for name, given in cohort.traits.items()}
+    )
     values = population.values(for_traits.normal(size=len(TRAITS)))
     particulars = draw_particulars(cohort.demographics, for_particulars)
     return Person(
@@ -60,13 +75,14 @@ def draw_person(cohort: Cohort, rng: np.random.Generator, population: Population
         particulars.age_years,
         particulars.gender,
         particulars.handedness,
+        assigned(cohort.impairments, for_impairment),
     )
 
 
 @lru_cache(maxsize=1)
 def typical_traits() -> Traits:
     """Return the traits of the median person."""
-    return _traits(PRIOR.values(np.zeros(len(TRAITS))))
+    return _traits(PEOPLE.values(np.zeros(len(TRAITS))))
 
 
 def _traits(values: Mapping[str, float]) -> Traits:

@@ -7,7 +7,7 @@ variables are correlated between people: who reacts late also tends to drive slo
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -102,6 +102,16 @@ class Population:
                 "allowed: a positive definite matrix"
             ) from None
 
+    def with_marginals(self, others: Mapping[str, Marginal]) -> "Population":
+        """Return a population in which some traits are distributed otherwise.
+
+        Raises
+        ------
+        InputError
+            When a trait does not exist, or a median lies outside its range.
+        """
+        return replace(self, marginals={**self.marginals, **others}) if others else self
+
     def values(self, latent: NDArray[np.float64]) -> dict[str, float]:
         """Return the traits of a person.
 
@@ -118,7 +128,7 @@ class Population:
         }
 
 
-PRIOR = Population(
+PEOPLE = Population(
     marginals={
         "preferred_speed_m_s": Marginal(0.55, 0.8),
         "lookahead_s": Marginal(2.0, 0.4),
@@ -137,6 +147,7 @@ PRIOR = Population(
         "compliance": Marginal(0.25, 0.8),
         "adaptation_per_s": Marginal(0.8, 0.5),
         "limit_push": Marginal(0.75, 1.0),
+        "patience_s": Marginal(400.0, 0.6),
         "acquiescence": Marginal(0.2, 0.3),
         "extremity": Marginal(1.0, 0.35),
         "liking": Marginal(0.0, 0.4),

@@ -1,8 +1,8 @@
-"""Where a name in a protocol file becomes somebody: drivers, demonstrators, respondents.
+"""Where a name in a protocol becomes somebody: driver, impairment, demonstrator, respondent.
 
 A name is a shipped one, or a dotted path ``package.module:factory`` to a function that takes the
-setup (see ``participants.setup``) and returns the driver, demonstrator or respondent. Nothing has
-to be edited here to add one.
+setup (see ``participants.setup``) and returns the driver, demonstrator or respondent; that of an
+impairment returns a driver around the one it is given. Nothing has to be edited here to add one.
 """
 
 from collections.abc import Mapping
@@ -11,7 +11,7 @@ from typing import Any, cast
 
 from participants.demonstrator import Demonstrator
 from participants.driver import Driver
-from participants.setup import DemonstratorSetup, DriverSetup, RespondentSetup
+from participants.setup import DemonstratorSetup, DriverSetup, ImpairmentSetup, RespondentSetup
 from participants.survey import Respondent
 from protocols.errors import InputError
 
@@ -19,6 +19,10 @@ DRIVERS: Mapping[str, str] = {
     "human": "participants.human.driver:human_driver",
     "autonomous": "participants.autonomous:autonomous_driver",
     "scripted": "participants.scripted:scripted_driver",
+}
+IMPAIRMENTS: Mapping[str, str] = {
+    "tremor": "participants.impairments.tremor:tremor",
+    "weakness": "participants.impairments.weakness:weakness",
 }
 DEMONSTRATORS: Mapping[str, str] = {"attentive": "participants.attentive:attentive_demonstrator"}
 RESPONDENTS: Mapping[str, str] = {"ordinal": "participants.respondent:ordinal_respondent"}
@@ -33,6 +37,17 @@ def make_driver(name: str, setup: DriverSetup) -> Driver:
         When there is no such driver, or it cannot be made with these options.
     """
     return cast("Driver", _make("driver", DRIVERS, ("start_lap", "act"), name, setup))
+
+
+def make_impaired(name: str, setup: ImpairmentSetup) -> Driver:
+    """Return a driver with the impairment a protocol names.
+
+    Raises
+    ------
+    InputError
+        When there is no such impairment, or it cannot be made with these options.
+    """
+    return cast("Driver", _make("impairment", IMPAIRMENTS, ("start_lap", "act"), name, setup))
 
 
 def make_demonstrator(name: str, setup: DemonstratorSetup) -> Demonstrator:

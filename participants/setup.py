@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from participants.driver import Driver
 from participants.survey import Question
 from participants.traits import ResponseStyle, Traits
 from protocols.course.schema import Course
@@ -35,6 +36,28 @@ class DriverSetup:
     traits: Traits | None = None
     options: Mapping[str, Any] = field(default_factory=dict)
     folder: Path | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ImpairmentSetup:
+    """What an impairment is made of.
+
+    Attributes
+    ----------
+    driver
+        Whose commands it changes.
+    severity
+        From none, 0, to severe, 1.
+    rng
+        The impairment's own random numbers for the whole session; it derives those of each lap.
+    options
+        The protocol's options for this impairment, as written in the file.
+    """
+
+    driver: Driver
+    severity: float
+    rng: np.random.Generator
+    options: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

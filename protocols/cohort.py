@@ -1,10 +1,11 @@
 """Who takes part: how many, who drives, who helps, who answers."""
 
+import math
 from typing import Annotated, Any, Self
 
 from pydantic import Field, model_validator
 
-from protocols.part import Part, shipped_or_factory
+from protocols.part import Name, Part, shipped_or_factory
 
 Options = dict[str, Any]
 """Settings handed to the component as keyword arguments; the component checks them."""
@@ -66,6 +67,38 @@ class RespondentChoice(Part):
     options: Options = Field(default_factory=dict)
 
 
+class ImpairmentChoice(Part):
+    """What the bodies of some participants do to their own intentions.
+
+    Attributes
+    ----------
+    share
+        Probability that a participant has it; nobody has more than one.
+    severity
+        From none to severe; what that means is the impairment's.
+    """
+
+    use: shipped_or_factory("tremor", "weakness")  # type: ignore[valid-type]
+    share: Share = 1.0
+    severity: Annotated[float, Field(ge=0, le=1)] = 0.5
+    options: Options = Field(default_factory=dict)
+
+
+class TraitDistribution(Part):
+    """How one trait is distributed over synthetic people, instead of as calibrated.
+
+    Attributes
+    ----------
+    median
+        The median person's value, in the trait's unit.
+    spread
+        Standard deviation on the logit scale of the trait's range; 0 when all are alike.
+    """
+
+    median: float
+    spread: Annotated[float, Field(ge=0, le=10)]
+
+
 class Cohort(Part):
     """The people of a study. A study can be enlarged: only ``participants`` may change then."""
 
@@ -74,3 +107,15 @@ class Cohort(Part):
     demonstrator: DemonstratorChoice = DemonstratorChoice()
     respondent: RespondentChoice = RespondentChoice()
     demographics: Demographics = Demographics()
+    impairments: tuple[ImpairmentChoice, ...] = ()
+    traits: dict[Name, TraitDistribution] = Field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _nobody_has_two(self) -> Self:
+        total = math.fsum(impairment.share for impairment in self.impairments)
+        if total > 1.0 + 1e-9:
+            raise ValueError(
+                f"the shares of the impairments add up to {total:g}; allowed: 1 at most, "
+                "nobody has more than one"
+            )
+        return self

@@ -6,6 +6,7 @@ from lad.command import Command
 from participants.cohort import typical_traits
 from participants.human.at_the_wheel import AtTheWheel
 from participants.human.authority import Authority
+from participants.human.patience import Patience
 from participants.human.practice import skill
 from participants.human.room import KnownRoom, known_room
 from participants.options import NoOptions, read_options
@@ -35,10 +36,13 @@ class HumanDriver:
         """Begin a lap; what was learnt about the chair stays."""
         self._authority.start_lap()
         skilled = skill(self._traits, lap)
+        (for_patience,) = rng.spawn(1)
+        self._patience = Patience(self._traits.patience_s, for_patience)
         self._now = AtTheWheel(self._traits, skilled, self._authority, self._room, rng)
 
     def act(self, sight: Sight) -> Command:
-        """Move the stick."""
+        """Move the stick, or leave."""
+        self._patience.check(sight.t)
         return self._now.act(sight)
 
 

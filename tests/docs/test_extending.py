@@ -23,7 +23,7 @@ def workplace(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", [*sys.path])
     yield tmp_path
-    for module in ("gentle", "neighbour"):
+    for module in ("gentle", "late", "neighbour"):
         sys.modules.pop(module, None)
 
 

@@ -5,7 +5,7 @@ from dataclasses import fields
 import numpy as np
 
 from participants.cohort import draw_person, typical_traits
-from participants.population import PRIOR, TRAITS
+from participants.population import PEOPLE, TRAITS
 from participants.traits import Traits
 from protocols.cohort import AgeRange, Cohort, Demographics
 
@@ -39,5 +39,5 @@ def test_the_typical_person_has_median_traits():
     """Drivers without a person are driven by the median one."""
     traits = typical_traits()
     for field in fields(Traits):
-        median = PRIOR.marginals[field.name].median
+        median = PEOPLE.marginals[field.name].median
         assert abs(getattr(traits, field.name) - median) < 1e-9

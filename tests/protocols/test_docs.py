@@ -8,7 +8,14 @@ import pytest
 from pydantic import BaseModel
 
 from lad.hyperparameters import LADParameters
-from protocols.cohort import AgeRange, Cohort, Demographics, DriverChoice
+from protocols.cohort import (
+    AgeRange,
+    Cohort,
+    Demographics,
+    DriverChoice,
+    ImpairmentChoice,
+    TraitDistribution,
+)
 from protocols.condition import Condition, LimitationSettings
 from protocols.declared import LAP_OUTCOMES, Comparison, Exclusion
 from protocols.instrument import Instrument, Item
@@ -20,9 +27,9 @@ _PAGE = (Path(__file__).parents[2] / "docs" / "protocols.md").read_text(encoding
 _PROSE = re.sub(r"```.*?```", "", _PAGE, flags=re.DOTALL)
 _NAMED = {word for code in re.findall(r"`([^`]+)`", _PROSE) for word in re.findall(r"[\w-]+", code)}
 _MODELS = (
-    StudyProtocol, Cohort, Demographics, AgeRange, DriverChoice, Condition, LimitationSettings,
-    PlannedLap, SurveyPlan, ModelChoice, LADParameters, LaserSettings, Exclusion, Comparison,
-    Instrument, Item,
+    StudyProtocol, Cohort, Demographics, AgeRange, DriverChoice, ImpairmentChoice,
+    TraitDistribution, Condition, LimitationSettings, PlannedLap, SurveyPlan, ModelChoice,
+    LADParameters, LaserSettings, Exclusion, Comparison, Instrument, Item,
 )  # fmt: skip
 
 

@@ -1,0 +1,47 @@
+"""Weakness: the stick is not pushed as far as meant."""
+
+import numpy as np
+
+from lad.command import Command
+from participants.driver import Driver
+from participants.options import NoOptions, read_options
+from participants.setup import ImpairmentSetup
+from participants.sight import Sight
+
+LEAST = 0.1
+"""What is left of a deflection at severity 1; with nothing left, nobody could drive."""
+
+
+class Weakness:
+    """A driver whose hand reaches a share of the deflection it is meant to.
+
+    Both directions are scaled: a stick that a spring centres stands where the hand's force and
+    the spring's are equal, so its deflection is proportional to the force. Scaled amplitude is
+    how weakness of the hand is simulated by Schettino et al. (2025), Robotics 14(10):136, too.
+
+    Parameters
+    ----------
+    driver
+        Whose intentions they are.
+    severity
+        0 leaves commands as they are, 1 leaves ``LEAST`` of them.
+    """
+
+    def __init__(self, driver: Driver, severity: float) -> None:
+        self._driver = driver
+        self._share = 1.0 - severity * (1.0 - LEAST)
+
+    def start_lap(self, lap: int, rng: np.random.Generator) -> None:
+        """Get ready for a lap."""
+        self._driver.start_lap(lap, rng)
+
+    def act(self, sight: Sight) -> Command | None:
+        """Answer with what the hand manages of the driver's command."""
+        meant = self._driver.act(sight)
+        return None if meant is None else Command(self._share * meant.v, self._share * meant.w)
+
+
+def weakness(setup: ImpairmentSetup) -> Weakness:
+    """Return a driver with weakness; it takes no options."""
+    read_options("impairment 'weakness'", NoOptions, setup.options)
+    return Weakness(setup.driver, setup.severity)
