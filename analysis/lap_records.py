@@ -71,7 +71,7 @@ def _kept(steps: Steps, participant: str, condition: str) -> pd.DataFrame:
     frame = pd.DataFrame({name: stream(steps, name).astype(np.float32) for name in POOLED})
     frame["helped"] = (unknown if on is None else on).astype(np.float32)
     for name in ("section", "section_kind"):
-        frame[name] = pd.Categorical(steps[name].astype(object))
+        frame[name] = pd.Categorical(steps[name].to_numpy(dtype=object))
     frame.insert(0, "participant", participant)
     frame.insert(1, "condition", condition)
     return frame

@@ -46,11 +46,9 @@ def _lines(axes: Axes, laps: pd.DataFrame, parts: Sequence[Part]) -> None:
     times = times.reindex(columns=[part.condition for part in parts]).astype("float64")
     faint = max(0.06, min(0.5, 6 / max(len(times), 1)))
     shades = colours(parts)
-    for i, row in enumerate(times.to_numpy()):
-        axes.plot(
-            range(len(parts)), row, color=GREY, alpha=faint, linewidth=0.9,
-            label="a participant" if i == 0 else None,
-        )  # fmt: skip
+    for row in times.to_numpy():
+        axes.plot(range(len(parts)), row, color=GREY, alpha=faint, linewidth=0.9)
+    axes.plot([], [], color=GREY, linewidth=0.9, label="a participant")
     for at, part in enumerate(parts):
         column = times[part.condition].dropna()
         axes.scatter(np.full(len(column), at), column, s=14, color=shades[part.condition],

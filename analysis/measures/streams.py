@@ -17,7 +17,10 @@ def stream(steps: Steps, name: str) -> Numbers:
     """Return a column as numbers; NaN where it is missing, all NaN when it was not recorded."""
     if name not in steps:
         return np.full(len(steps), np.nan)
-    return pd.to_numeric(steps[name]).to_numpy(dtype=np.float64, na_value=np.nan)
+    column = steps[name]
+    if column.dtype == np.float64:
+        return column.to_numpy()
+    return pd.to_numeric(column).to_numpy(dtype=np.float64, na_value=np.nan)
 
 
 def period(steps: Steps) -> float:
@@ -28,9 +31,10 @@ def period(steps: Steps) -> float:
 
 def helped(steps: Steps) -> Flags | None:
     """Return in which steps an assistant's command counted; None when control was not recorded."""
-    if "control" not in steps or steps["control"].isna().any() or len(steps) == 0:
+    if "control" not in steps or len(steps) == 0:
         return None
-    return (steps["control"] != "driver").to_numpy(dtype=np.bool_)
+    control = steps["control"].to_numpy(dtype=object)
+    return None if pd.isna(control).any() else np.asarray(control != "driver", dtype=np.bool_)
 
 
 def would_help(steps: Steps) -> Flags | None:

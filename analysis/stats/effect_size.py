@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from analysis.stats.bootstrap import bca_interval
+from analysis.stats.bootstrap import RESAMPLES, bca_interval
 from analysis.stats.result import TestResult
 from analysis.stats.samples import Sample, present
 
-_BOOTSTRAP = "BCa bootstrap over participants, 4,999 resamples"
+_BOOTSTRAP = f"BCa bootstrap over participants, {RESAMPLES:,} resamples"
 
 
 def cohen_dz(differences: Sample, rng: np.random.Generator, level: float = 0.95) -> TestResult:

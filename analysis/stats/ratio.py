@@ -5,11 +5,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from analysis.stats.bootstrap import bca_interval
+from analysis.stats.bootstrap import RESAMPLES, bca_interval
 from analysis.stats.result import TestResult
 from analysis.stats.samples import Sample, present_pairs
 
-_BOOTSTRAP = "BCa bootstrap over participants, 4,999 resamples"
+_BOOTSTRAP = f"BCa bootstrap over participants, {RESAMPLES:,} resamples"
 
 
 def ratio_of_means(

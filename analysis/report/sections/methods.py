@@ -3,6 +3,7 @@
 from analysis.report.blocks import Paragraph, Section
 from analysis.report.words import plural
 from analysis.results import StudyResults
+from analysis.stats.bootstrap import RESAMPLES
 from analysis.versions import analysis_versions
 
 
@@ -47,9 +48,9 @@ def _tests(results: StudyResults) -> str:
         "exact given ties (mid-ranks; zeros after Pratt), a normal approximation above 200 "
         "non-zero pairs; the estimate is the Hodges-Lehmann pseudomedian. Effect sizes are the "
         "matched-pairs rank-biserial correlation and d_z, with BCa bootstrap intervals over "
-        "participants (4,999 resamples); mean differences have t intervals. Confirmatory p-values "
-        f"are corrected after Holm within their family ({len(families)} declared); exploratory "
-        "ones are not corrected. Equivalence is tested with two one-sided t-tests (TOST) within "
+        f"participants ({RESAMPLES:,} resamples); mean differences have t intervals. Confirmatory "
+        f"p-values are corrected after Holm within their family ({len(families)} declared); "
+        "exploratory ones are not corrected. Equivalence is tested with two one-sided t-tests (TOST) within "
         "declared margins. Two-sample Kolmogorov-Smirnov tests are exact for small samples and "
         "descriptive, since the samples come from the same people. Speedups are given as ratio of "
         "means and as mean of ratios over complete pairs. A pair with a missing value is left out "
