@@ -151,7 +151,7 @@ PEOPLE = Population(
         "acquiescence": Marginal(0.2, 0.3),
         "extremity": Marginal(1.0, 0.35),
         "liking": Marginal(0.0, 0.4),
-        "missing_share": Marginal(0.008, 1.0),
+        "missing_share": Marginal(0.002, 1.0),
     },
     correlations={
         ("preferred_speed_m_s", "reaction_delay_s"): -0.3,
