@@ -1,5 +1,6 @@
 """Participants flow: planned, recorded, excluded and why, analysed. The arithmetic adds up."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import pandas as pd
@@ -29,6 +30,8 @@ class Flow:
         Of these, who finished every analysed lap.
     laps
         One row per condition: laps planned, not driven, unfinished by reason, finished.
+    left_out
+        What the tables hold that no analysis can use, in words; empty for our own studies.
     """
 
     planned: int
@@ -40,6 +43,7 @@ class Flow:
     analysed: int
     completed: int
     laps: pd.DataFrame
+    left_out: tuple[str, ...]
 
 
 def participants_flow(frames: StudyFrames) -> Flow:
@@ -62,6 +66,7 @@ def participants_flow(frames: StudyFrames) -> Flow:
         analysed=len(frames.participants),
         completed=int((finished >= wanted).sum()),
         laps=lap_flow(frames),
+        left_out=tuple(_left_out(frames)),
     )
 
 
@@ -88,3 +93,23 @@ def lap_flow(frames: StudyFrames) -> pd.DataFrame:
             }
         )
     return pd.DataFrame(rows)
+
+
+def _left_out(frames: StudyFrames) -> Iterator[str]:
+    """Name rows that refer to something the study does not have: tables made elsewhere may."""
+    study = frames.study
+    everybody = set(frames.everybody["participant"])
+    strangers = [w for w in study.laps["participant"].to_pylist() if w not in everybody]
+    if strangers:
+        yield f"{len(strangers)} laps of people who are not in the table of participants"
+    checks = (
+        (frames.laps, "condition", set(study.protocol.conditions), "laps", "conditions"),
+        (frames.surveys, "condition", set(study.protocol.conditions), "answers", "conditions"),
+        (frames.surveys, "instrument", {i.name for i in study.instruments}, "answers",
+         "instruments"),
+    )  # fmt: skip
+    for frame, column, known, rows, what in checks:
+        unknown = frame[~frame[column].isin(known)][column]
+        if len(unknown):
+            names = ", ".join(sorted(set(map(str, unknown))))
+            yield f"{len(unknown)} {rows} of {what} that the study does not have ({names})"

@@ -94,6 +94,9 @@ def _speedups(frames: StudyFrames, comparisons: Iterable[PairedComparison]) -> I
             what = f"{c.condition}: seconds gained over {limited}"
             gain = c.difference
             yield _Ours(part, "gain", what, -gain.estimate, -gain.high, -gain.low)
+        if c.ks is not None and (part.role, parts[c.reference].role) == ("model", "demonstrator"):
+            what = f"{c.condition}: Kolmogorov-Smirnov distance from {c.reference}"
+            yield _Ours(part, "ks", what, c.ks.statistic)
         if c.reference == baseline and c.condition == limited:
             yield from _increase(frames, part, baseline, c.ratio_of_means)
 

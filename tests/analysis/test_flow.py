@@ -1,9 +1,11 @@
 """Who took part, and which laps there are: the arithmetic adds up."""
 
+import pandas as pd
 import pytest
 
 from analysis.flow import participants_flow
 from analysis.frames import study_frames
+from protocols.record.reader import open_study
 
 
 @pytest.fixture
@@ -43,3 +45,22 @@ def test_the_excluded_are_in_no_frame(eventful):
     assert not out & set(frames.laps["participant"])
     assert not out & set(frames.surveys["participant"])
     assert 0 not in set(frames.laps["lap"])
+
+
+def test_rows_that_refer_to_nothing_are_named(make_study):
+    """A lap of a stranger, an unknown condition, an unknown instrument: said, not dropped."""
+    folder = make_study(participants=2).folder
+    assert participants_flow(study_frames(open_study(folder))).left_out == ()
+    laps = pd.read_parquet(folder / "laps.parquet")
+    laps.loc[0, "participant"] = "P0099"
+    laps.loc[1, "condition"] = "blindfolded"
+    laps.to_parquet(folder / "laps.parquet")
+    surveys = pd.read_parquet(folder / "surveys.parquet")
+    surveys.loc[0, "instrument"] = "horoscope"
+    surveys.to_parquet(folder / "surveys.parquet")
+    said = participants_flow(study_frames(open_study(folder))).left_out
+    assert said == (
+        "1 laps of people who are not in the table of participants",
+        "1 laps of conditions that the study does not have (blindfolded)",
+        "1 answers of instruments that the study does not have (horoscope)",
+    )

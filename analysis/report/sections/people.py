@@ -3,7 +3,7 @@
 import pandas as pd
 
 from analysis.flow import Flow
-from analysis.report.blocks import Block, Paragraph, Section, Shown, table
+from analysis.report.blocks import Block, Caution, Paragraph, Section, Shown, table
 from analysis.report.words import count, number, plural
 from analysis.results import StudyResults
 from analysis.stats.describe import describe
@@ -19,6 +19,7 @@ def people_section(results: StudyResults) -> Section:
               "finished + unfinished + not driven.", results.flow.laps, _LAPS),
         Paragraph(_who(results.frames.participants)),
     ]  # fmt: skip
+    blocks += [Caution(f"Not analysed: {what}.") for what in results.flow.left_out]
     if results.records.without_steps:
         blocks.append(
             Paragraph(

@@ -1,0 +1,93 @@
+"""Studies unlike the four laps: repeated conditions, two models, no assistance at all."""
+
+import pytest
+
+from analysis.frames import study_frames
+from analysis.report.page import build_page
+from analysis.report.render import render
+from analysis.results import analyse
+
+HEAD = """
+schema: 1
+name: other
+title: Another study
+course: lab-office
+cohort: {participants: 4, driver: {use: DRIVER}}
+conditions:
+  free: {}
+  limited: {limitation: {right_turn_rad_s: 0.15}}
+  taught: {limitation: {right_turn_rad_s: 0.15}, assistant: demonstrator, training: true}
+  after one: {limitation: {right_turn_rad_s: 0.15}, assistant: model}
+  after three: {limitation: {right_turn_rad_s: 0.15}, assistant: model}
+laps:
+"""
+
+
+@pytest.fixture
+def page(make_study, tmp_path):
+    """Return a function from a driver and the conditions of the laps to results and page text."""
+
+    def write(driver, *conditions):
+        path = tmp_path / "other.yaml"
+        laps = "".join(f"  - condition: {c}\n" for c in conditions)
+        path.write_text(HEAD.replace("DRIVER", driver) + laps)
+        results = analyse(make_study(path, participants=4))
+        built = build_page(results)
+        return results, render(built, {picture.name: b"" for picture in built.pictures})
+
+    return write
+
+
+ROBOT = ("free", "limited", "taught", "after one", "taught", "taught", "after three")
+
+
+def test_autonomous_drivers_are_set_against_section_iv(page):
+    """Lap times after one and three demonstrations, and the paper's KS distance."""
+    results, _ = page("autonomous", *ROBOT)
+    paper = results.paper.set_index("what")["paper"]
+    assert paper["after one: mean lap time"] == 42.6
+    assert paper["after three: mean lap time"] == 40.4
+    assert paper["after three: Kolmogorov-Smirnov distance from taught"] == 0.3125
+    assert results.paper["section"].str.startswith("IV").all()
+
+
+def test_repeated_laps_of_a_condition_are_averaged_before_pairing(page):
+    """Twelve taught laps of four people make four pairs; all twelve are in the lap times."""
+    results, text = page("autonomous", *ROBOT)
+    frames = study_frames(results.frames.study)
+    assert (frames.laps["condition"] == "taught").sum() == 12
+    taught = next(
+        c for c in results.lap_times if (c.condition, c.reference) == ("taught", "limited")
+    )
+    assert taught.complete == 4
+    assert "taught" in text
+
+
+def test_a_study_that_declares_nothing_is_exploratory(page):
+    """The answer shows what helped against the limited laps, and calls it not declared."""
+    results, text = page("human", "free", "limited", "taught", "after one")
+    assert results.declared == ()
+    assert "no confirmatory comparison" in text
+    assert "(not declared)" in text
+    assert "Nothing was asked in this study" in text
+
+
+def test_a_study_without_assistance_has_no_maps(page):
+    """Two laps alone: nobody could help, and the page says so."""
+    results, text = page("human", "free", "limited")
+    assert results.overlap is None
+    assert "could anybody help" in text
+
+
+def test_a_repeated_limited_lap_identifies_practice(page):
+    """With the limited condition before and after, the lap's place is in the model."""
+    results, _ = page("human", "limited", "taught", "after one", "limited")
+    assert all("with the lap's place" in contrast.method for contrast in results.model)
+    assert results.practice.empty
+
+
+def test_one_condition_alone_has_nothing_to_compare(page):
+    """The page is written, and says that there is nothing to compare."""
+    results, text = page("human", "free")
+    assert results.lap_times == ()
+    assert "no two conditions" in text

@@ -1,0 +1,37 @@
+"""The page about the analysis says what there is."""
+
+from pathlib import Path
+
+import pytest
+
+from analysis.measures.registry import MEASURES
+from protocols.record.minimal import LAPS, PARTICIPANTS, STEPS, SURVEYS
+
+PAGE = (Path(__file__).parents[2] / "docs" / "analysis.md").read_text("utf-8")
+
+
+@pytest.mark.parametrize("m", MEASURES, ids=lambda m: m.name)
+def test_every_measure_is_described(m):
+    """With its name and meaning, as the registry has them."""
+    assert f"`{m.name}`" in PAGE
+    assert m.meaning in PAGE
+
+
+@pytest.mark.parametrize("rules", [PARTICIPANTS, LAPS, SURVEYS, STEPS])
+def test_minimal_columns_are_those_the_reader_asks_for(rules):
+    """Who records elsewhere learns every column that must be there."""
+    assert ", ".join(f"`{name}`" for name in rules.required) in PAGE
+
+
+def test_every_test_function_is_named():
+    """Each file of analysis/stats that returns results has its function on the page."""
+    folder = Path(__file__).parents[2] / "analysis" / "stats"
+    for path in folder.glob("*.py"):
+        text = path.read_text("utf-8")
+        functions = [
+            line.split("(")[0].removeprefix("def ")
+            for line in text.splitlines()
+            if line.startswith("def ") and not line.startswith("def _")
+        ]
+        if "TestResult" in text and functions and path.stem != "result":
+            assert any(f"`{name}`" in PAGE for name in functions), path.name
