@@ -44,6 +44,7 @@ def cast(plan: Plan, number: int, person: Person) -> Cast:
         rng=stream(seed, number, "driver"),
         traits=person.traits,
         options=cohort.driver.options,
+        folder=study.folder,
     )
     demonstrator = DemonstratorSetup(
         course=course,

@@ -1,101 +1,164 @@
-"""Sessions on every core, or on a cluster: participants run to completion, each in one process."""
+"""Sessions, by whoever runs them: this machine's cores, or a cluster's workers."""
 
+import threading
 import time
 import traceback
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+import warnings
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
-import joblib
-
-from harness.cluster import dask_client
 from harness.plan import Plan
-from harness.session import Session
-from harness.world import BulletWorld
+from harness.processes import Died, Processes, warm_up
 from protocols.course.schema import Course
-from protocols.record.session import encode
+from protocols.errors import InputError
+from protocols.start_noise import StartNoise
 from protocols.study import LaserSettings
+
+if TYPE_CHECKING:
+    from harness.world import World
+
+T = TypeVar("T")
+
+_ONE_AT_A_TIME = threading.Lock()
+"""A process has one world; a Dask worker may have several threads."""
+
+
+class Workers(Protocol):
+    """Whoever runs a task for numbers, and yields each with its answer as soon as it is there."""
+
+    def run(
+        self, task: Callable[[int], T], numbers: Iterable[int]
+    ) -> Iterator[tuple[int, T | Died]]:
+        """Run; a task may be run again when its process died, and is answered once."""
 
 
 @dataclass(frozen=True, slots=True)
 class Finished:
-    """A session as the bytes of its files, and the seconds it took."""
+    """A session as the bytes of its files.
 
-    number: int
+    Attributes
+    ----------
+    files
+        Name to content.
+    wall_s
+        How long it took, s.
+    warned
+        What Python warned of meanwhile.
+    """
+
     files: dict[str, bytes]
     wall_s: float
+    warned: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Failed:
     """A session that raised, with the traceback."""
 
-    number: int
     trace: str
 
 
-def run_sessions(
-    plan: Plan, numbers: Sequence[int], jobs: int, scheduler: str | None = None
-) -> Iterator[Finished | Failed]:
-    """Run participants' sessions, and yield each as soon as it has ended.
-
-    Never more than a few sessions per process are under way or waiting, so memory does not grow
-    with the number of participants.
+def hire(jobs: int, scheduler: str | None = None) -> AbstractContextManager[Workers]:
+    """Return the workers, for as long as a context lasts.
 
     Parameters
     ----------
-    plan
-        The study and its seed.
-    numbers
-        The participants to run.
     jobs
-        Number of processes on this machine; 1 stays in this one.
+        Number of processes on this machine.
     scheduler
-        Address of a Dask scheduler whose workers run the sessions instead.
+        Address of a Dask scheduler whose workers take their place.
 
     Raises
     ------
     InputError
-        When there is no scheduler at the address, or Dask is not installed.
+        On entering: when there is no scheduler at the address, or Dask is not installed.
     """
-    if scheduler is None and (jobs == 1 or len(numbers) <= 1):
-        yield from (_attempt(plan, number) for number in numbers)
-        return
-    with _backend(scheduler):
-        crew = joblib.Parallel(
-            n_jobs=-1 if scheduler else min(jobs, len(numbers)),
-            return_as="generator_unordered",
-            pre_dispatch="3*n_jobs",
-            batch_size=1,
-        )
-        yield from crew(joblib.delayed(_attempt)(plan, number) for number in numbers)
-
-
-@contextmanager
-def _backend(scheduler: str | None) -> Iterator[None]:
-    """Choose who runs the sessions: this machine's cores, or a cluster's workers."""
     if scheduler is None:
-        with joblib.parallel_config(backend="loky", inner_max_num_threads=1):
-            yield
-        return
-    with dask_client(scheduler), joblib.parallel_config(backend="dask"):
-        yield
+        get_ready()
+        return Processes(jobs)
+    from harness.cluster import cluster  # noqa: PLC0415  # it names Dask, an extra
+
+    return cluster(scheduler)
 
 
-def _attempt(plan: Plan, number: int) -> Finished | Failed:
+def get_ready() -> None:
+    """Begin to start this machine's workers, in the background."""
+    warm_up(["harness.session", "harness.world", "harness.cli"])
+
+
+def rehearse(workers: Workers, plan: Plan) -> None:
+    """Make everybody of the first session once, so that a mistake shows before anything runs.
+
+    Raises
+    ------
+    InputError
+        When somebody the protocol names cannot be made where the sessions are going to run.
+    ChildProcessError
+        When a worker cannot even try.
+    """
+    for _, answer in workers.run(partial(_rehearsal, plan), [1]):
+        if isinstance(answer, InputError):
+            raise answer
+        if isinstance(answer, Died) and not answer.again:
+            raise ChildProcessError(f"no session can be run: {answer.reason}")
+
+
+def run_sessions(
+    workers: Workers, plan: Plan, numbers: Iterable[int]
+) -> Iterator[tuple[int, Finished | Failed | Died]]:
+    """Run participants' sessions, and yield each as soon as it has ended.
+
+    Never more than a few sessions per process are under way or waiting, so memory does not grow
+    with the number of participants.
+    """
+    return workers.run(partial(attempt, plan), numbers)
+
+
+def attempt(plan: Plan, number: int) -> Finished | Failed:
     """Run one session; whatever it raises ends this session only."""
+    from harness.session import Session  # noqa: PLC0415  # the runner itself needs no simulator
+    from protocols.record.session import encode  # noqa: PLC0415
+
     begun = time.perf_counter()
+    with _ONE_AT_A_TIME, warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("default")
+        try:
+            files = encode(Session(plan, number, _world(plan)).run())
+        except Exception:  # noqa: BLE001  # one participant's failure must not end the others'
+            return Failed(traceback.format_exc())
+    warned = tuple(f"{w.filename}:{w.lineno}: {w.category.__name__}: {w.message}" for w in caught)
+    return Finished(files, time.perf_counter() - begun, warned)
+
+
+def _rehearsal(plan: Plan, _number: int) -> InputError | None:
+    from harness import casting  # noqa: PLC0415  # the runner itself needs no simulator
+
     try:
-        protocol = plan.study.protocol
-        world = _world(plan.study.course, protocol.laser, protocol.control_period_s)
-        files = encode(Session(plan, number, world).run())
-    except Exception:  # noqa: BLE001  # one participant's failure must not end the others'
-        return Failed(number, traceback.format_exc())
-    return Finished(number, files, time.perf_counter() - begun)
+        casting.rehearse(plan)
+    except InputError as error:
+        return error
+    except Exception as error:  # noqa: BLE001  # somebody's own parts may fail in any way
+        at = traceback.extract_tb(error.__traceback__)[-1]
+        reason = f"{type(error).__name__}: {error} ({at.filename}:{at.lineno})"
+        return InputError(f"{plan.study.protocol.name}: nobody can be made ready for it: {reason}")
+    return None
+
+
+def _world(plan: Plan) -> "World":
+    protocol = plan.study.protocol
+    return _reused_world(
+        plan.study.course, protocol.laser, protocol.control_period_s, protocol.start_noise
+    )
 
 
 @lru_cache(maxsize=1)
-def _world(course: Course, laser: LaserSettings, period: float) -> BulletWorld:
+def _reused_world(
+    course: Course, laser: LaserSettings, period: float, start_noise: StartNoise
+) -> "World":
     """Return this process's world: building one costs more than resetting it."""
-    return BulletWorld(course, laser=laser, period=period)
+    from harness.world import BulletWorld  # noqa: PLC0415  # loads PyBullet
+
+    return BulletWorld(course, laser=laser, period=period, start_noise=start_noise)

@@ -1,12 +1,12 @@
 """Run a study: the missing sessions, then the tables. The runner alone writes."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from harness.casting import rehearse
-from harness.crew import Failed, Finished, run_sessions
-from harness.plan import Plan
+from harness.crew import Failed, Finished, hire, rehearse, run_sessions
+from harness.plan import Plan, portable
+from harness.processes import Died
 from protocols.record.rows import participant_id
 from protocols.record.store import (
     build_tables,
@@ -15,9 +15,12 @@ from protocols.record.store import (
     finished_sessions,
     held,
     open_folder,
+    refuse_another_study,
+    write_death,
     write_failure,
     write_session,
     write_timing,
+    write_warnings,
 )
 
 Tell = Callable[[int, int], None]
@@ -77,39 +80,83 @@ def run_study(
     InputError
         When somebody the protocol names cannot be made, or ``out`` holds something else, or
         another study; nothing is touched then.
+    OSError
+        When something cannot be written, or no worker can be had; what was finished is kept.
     """
-    rehearse(plan)
+    plan = portable(plan)
+    refuse_another_study(out, plan.study, plan.seed)
+    if not _missing(plan, out, retry_failed=retry_failed):
+        return _complete(plan, out)
+    with hire(jobs, scheduler) as workers:
+        rehearse(workers, plan)
+        open_folder(out, plan.study, plan.seed)
+        with held(out):
+            missing = _missing(plan, out, retry_failed=retry_failed)
+            before = len(_planned(plan)) - len(missing)
+            counted = (lambda ended: tell(before + ended, len(_planned(plan)))) if tell else None
+            finished = _write(out, run_sessions(workers, plan, missing), counted)
+            build_tables(out)
+    return _outcome(plan, out, finished)
+
+
+def _complete(plan: Plan, out: Path) -> Outcome:
+    """Put a study in order whose sessions are all there."""
     open_folder(out, plan.study, plan.seed)
     with held(out):
-        numbers = range(1, plan.study.protocol.cohort.participants + 1)
-        found = set(finished_sessions(out))
-        given_up = set() if retry_failed else set(failures(out)) - found
-        missing = [n for n in numbers if participant_id(n) not in found | given_up]
-        sessions = run_sessions(plan, missing, jobs, scheduler)
-        finished = _write(out, sessions, _counting(tell, len(missing), len(numbers)))
         build_tables(out)
-    planned = {participant_id(n) for n in numbers}
-    failed = tuple(name for name in failures(out) if name in planned)
-    return Outcome(len(planned), len(found & planned), finished, failed)
+    return _outcome(plan, out, 0)
 
 
-def _write(out: Path, sessions: Iterator[Finished | Failed], tell: Callable[[int], None]) -> int:
+def _planned(plan: Plan) -> range:
+    return range(1, plan.study.protocol.cohort.participants + 1)
+
+
+def _missing(plan: Plan, out: Path, *, retry_failed: bool) -> list[int]:
+    """Return who has neither finished nor, left alone, failed."""
+    settled = set(finished_sessions(out))
+    if not retry_failed:
+        settled.update(failures(out))
+    return [number for number in _planned(plan) if participant_id(number) not in settled]
+
+
+def _write(
+    out: Path,
+    sessions: Iterable[tuple[int, Finished | Failed | Died]],
+    tell: Callable[[int], None] | None,
+) -> int:
     """Write each session as it comes in; return how many finished."""
-    finished = 0
-    tell(0)
-    for ended, session in enumerate(sessions, start=1):
-        name = participant_id(session.number)
-        if isinstance(session, Failed):
-            write_failure(out, name, session.trace)
-        else:
-            write_session(out, name, session.files)
-            clear_failure(out, name)
-            write_timing(out, name, session.wall_s)
+    finished = ended = 0
+    if tell:
+        tell(0)
+    for number, session in sessions:
+        name = participant_id(number)
+        if isinstance(session, Died) and session.again:
+            write_death(out, name, session.reason)
+            continue
+        if isinstance(session, Finished):
+            _keep(out, name, session)
             finished += 1
-        tell(ended)
+        else:
+            write_failure(out, name, _why(session))
+        ended += 1
+        if tell:
+            tell(ended)
     return finished
 
 
-def _counting(tell: Tell | None, missing: int, planned: int) -> Callable[[int], None]:
-    """Return a function that counts what was there before as ended, too."""
-    return (lambda ended: tell(planned - missing + ended, planned)) if tell else lambda _: None
+def _keep(out: Path, name: str, session: Finished) -> None:
+    write_session(out, name, session.files)
+    clear_failure(out, name)
+    write_timing(out, name, session.wall_s)
+    write_warnings(out, name, session.warned)
+
+
+def _why(session: Failed | Died) -> str:
+    return session.trace if isinstance(session, Failed) else f"{session.reason}\n"
+
+
+def _outcome(plan: Plan, out: Path, finished: int) -> Outcome:
+    planned = [participant_id(number) for number in _planned(plan)]
+    there = set(finished_sessions(out))
+    failed = tuple(name for name in failures(out) if name in planned and name not in there)
+    return Outcome(len(planned), len(there.intersection(planned)) - finished, finished, failed)

@@ -6,7 +6,6 @@ from typing import Annotated
 import typer
 
 from harness.cli.console import say
-from protocols.record.check import check_study
 
 
 def check(
@@ -18,6 +17,8 @@ def check(
 
     Example: lad-study check studies/four-lap-seed0
     """
+    from protocols.record.check import check_study
+
     faults = check_study(study)
     for fault in faults:
         say(fault)

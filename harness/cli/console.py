@@ -17,6 +17,11 @@ def say(message: str) -> None:
     OUT.print(message)
 
 
+def complain(message: str) -> None:
+    """Print one line about the run itself."""
+    ERR.print(message)
+
+
 @contextmanager
 def progress_line() -> Iterator[Callable[[str], None]]:
     """Show what is being done now on a line that is replaced; yield the function to call."""

@@ -5,23 +5,20 @@ from typing import Annotated
 import typer
 
 from harness.cli.console import say
-from protocols.load import (
-    load_course,
-    load_protocol,
-    shipped_courses,
-    shipped_protocols,
-)
-from protocols.shipped import shipped_text
 
 
 def protocols() -> None:
     """List the shipped study protocols."""
+    from protocols.load import load_protocol, shipped_protocols
+
     for name in shipped_protocols():
         say(f"{name:<16} {load_protocol(name).title}")
 
 
 def courses() -> None:
     """List the shipped courses."""
+    from protocols.load import load_course, shipped_courses
+
     for name in shipped_courses():
         say(f"{name:<16} {load_course(name).title}")
 
@@ -33,4 +30,6 @@ def show(
 
     Example: lad-study show four-lap > my-study.yaml
     """
+    from protocols.shipped import shipped_text
+
     typer.echo(shipped_text(name), nl=False)

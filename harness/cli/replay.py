@@ -21,7 +21,7 @@ def replay(
 
     Example: lad-study replay studies/four-lap-seed0 --participant P0001 --lap 3 --out lap.gif
     """
-    from analysis.replay import write_replay  # noqa: PLC0415  # slow to import, wanted here only
+    from analysis.replay import write_replay
 
     with progress_line() as tell:
         write_replay(study, participant, lap, out, tell)

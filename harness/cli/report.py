@@ -18,7 +18,7 @@ def report(
 
     Example: lad-study report studies/four-lap-seed0
     """
-    from analysis.report import write_report  # noqa: PLC0415  # slow to import, wanted here only
+    from analysis.report import write_report
 
     with progress_line() as tell:
         page = write_report(study, tell)

@@ -5,23 +5,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
 
-from harness.cli.console import ERR, progress_line, say
-from harness.cli.table import print_lap_times
-from harness.plan import Plan
+from harness.cli.console import complain, progress_line, say
 from protocols.errors import InputError
-from protocols.load import resolve_study
 
-if TYPE_CHECKING:  # at run time, only a run may load PyBullet
+if TYPE_CHECKING:
     from harness.runner import Outcome
+
+
+def _cores() -> int:
+    """Return how many cores this process may use: a batch system may allow fewer than there are."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def run(
@@ -38,7 +34,7 @@ def run(
     ] = None,
     jobs: Annotated[
         int, typer.Option(help="Processes, 1 or more.", show_default="all cores")
-    ] = os.cpu_count() or 1,
+    ] = _cores(),
     scheduler: Annotated[
         str | None,
         typer.Option(metavar="ADDRESS", help="Run on a Dask cluster, e.g. tcp://host:8786."),
@@ -60,20 +56,16 @@ def run(
     """
     _check("--seed", seed, 0)
     _check("--jobs", jobs, 1)
-    study = resolve_study(protocol, course=course, participants=participants)
-    folder = out or Path("studies") / f"{study.protocol.name}-seed{seed}"
-    outcome = _run_with_progress(Plan(study, seed), folder, jobs, scheduler, retry_failed)
+    folder, outcome = _run(
+        protocol, participants, seed, out, jobs, scheduler, course, retry_failed=retry_failed
+    )
     if outcome.found:
         say(f"{outcome.found} of {outcome.planned} sessions were there already.")
     if not no_report and outcome.found + outcome.finished:
         _report(folder)
     say(f"Study:  {folder}")
     if outcome.failed:
-        ERR.print(
-            f"{len(outcome.failed)} of {outcome.planned} sessions failed "
-            f"({', '.join(outcome.failed[:5])}{', ...' if len(outcome.failed) > 5 else ''}): "
-            f"see {folder / 'logs'}; --retry-failed runs them again."
-        )
+        complain(_failures(folder, outcome))
         return 1
     return 0
 
@@ -83,36 +75,49 @@ def _check(option: str, value: int, least: int) -> None:
         raise InputError(f"{option}: {value} is out of range; allowed: {least} or more")
 
 
-def _run_with_progress(
-    plan: Plan, folder: Path, jobs: int, scheduler: str | None, retry_failed: bool
-) -> "Outcome":
-    from harness.runner import run_study  # noqa: PLC0415  # loads PyBullet
+def _run(
+    protocol: str,
+    participants: int | None,
+    seed: int,
+    out: Path | None,
+    jobs: int,
+    scheduler: str | None,
+    course: str | None,
+    *,
+    retry_failed: bool,
+) -> "tuple[Path, Outcome]":
+    from harness.crew import get_ready
 
-    columns = (
-        TextColumn("Sessions"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TextColumn("left"),
-        TimeRemainingColumn(),
+    if scheduler is None:
+        get_ready()  # first: workers start while this process reads the protocol
+    from harness.cli.progress import counted_sessions
+    from harness.plan import Plan
+    from harness.runner import run_study
+    from protocols.load import resolve_study
+
+    study = resolve_study(protocol, course=course, participants=participants)
+    folder = out or Path("studies") / f"{study.protocol.name}-seed{seed}"
+    with counted_sessions() as tell:
+        outcome = run_study(
+            Plan(study, seed), folder, jobs, tell, scheduler=scheduler, retry_failed=retry_failed
+        )
+    return folder, outcome
+
+
+def _failures(folder: Path, outcome: "Outcome") -> str:
+    from protocols.record.store import failure_reason
+
+    names = ", ".join(outcome.failed[:5]) + (", ..." if len(outcome.failed) > 5 else "")
+    return (
+        f"{len(outcome.failed)} of {outcome.planned} sessions failed ({names}; the first one: "
+        f"{failure_reason(folder, outcome.failed[0])}): see {folder / 'logs'}; "
+        "--retry-failed runs them again."
     )
-    progress = Progress(*columns, console=ERR)
-
-    def tell(ended: int, planned: int) -> None:
-        if not progress.tasks:  # nothing is drawn before the input has been found right
-            progress.add_task("Sessions", total=planned)
-            progress.start()
-        progress.update(progress.tasks[0].id, completed=ended)
-
-    try:
-        return run_study(plan, folder, jobs, tell, scheduler=scheduler, retry_failed=retry_failed)
-    finally:
-        if progress.tasks:
-            progress.stop()
 
 
 def _report(folder: Path) -> None:
-    from analysis.report import write_report  # noqa: PLC0415  # slow to import, wanted here only
+    from analysis.report import write_report
+    from harness.cli.table import print_lap_times
 
     with progress_line() as tell:
         page = write_report(folder, tell)

@@ -12,7 +12,7 @@ from protocols.record.reader import open_study
 
 def print_lap_times(folder: Path) -> None:
     """Print lap times by condition, speedups over the limited laps, and the paper's figures."""
-    from analysis.summary import lap_summary  # noqa: PLC0415  # slow to import, wanted here only
+    from analysis.summary import lap_summary
 
     table = Table(box=box.SIMPLE_HEAD, title="Lap time by condition", title_justify="left")
     table.add_column("condition")

@@ -5,9 +5,6 @@ from typing import Annotated
 import typer
 
 from harness.cli.console import say
-from protocols.course.schema import Course
-from protocols.load import check_file
-from protocols.resolved import ResolvedStudy
 
 
 def validate(
@@ -21,6 +18,10 @@ def validate(
 
     Example: lad-study validate my-study.yaml
     """
+    from protocols.course.schema import Course
+    from protocols.load import check_file
+    from protocols.resolved import ResolvedStudy
+
     checked = check_file(file)
     if isinstance(checked, ResolvedStudy):
         protocol = checked.protocol

@@ -37,10 +37,8 @@ def open_folder(folder: Path, study: ResolvedStudy, seed: int) -> None:
         When the folder holds something else, or another study (shows the difference), or cannot
         be written; nothing in it is touched then.
     """
-    _refuse_other_things(folder)
-    if (folder / STUDY_FILE).exists():
-        header = _same_study(folder, study, seed)
-    else:
+    header = refuse_another_study(folder, study, seed)
+    if header is None:
         header = header_of(study, seed)
         _make(folder, header)
     for part in (SESSIONS, LOGS):
@@ -50,6 +48,33 @@ def open_folder(folder: Path, study: ResolvedStudy, seed: int) -> None:
             remove_partials(place)
         _enlarge(folder, header, study)
         write_whole(folder / CODEBOOK_FILE, codebook_json().encode())
+
+
+def refuse_another_study(folder: Path, study: ResolvedStudy, seed: int) -> StudyHeader | None:
+    """Refuse a folder in which this study could not be run; write nothing.
+
+    Returns
+    -------
+    StudyHeader or None
+        What the folder says about itself; None when there is no study in it yet.
+
+    Raises
+    ------
+    InputError
+        When the folder holds something else, or another study (shows the difference).
+    """
+    if not (folder / STUDY_FILE).exists():
+        _refuse_other_things(folder)
+        return None
+    header = read_header(folder)
+    found = differences(header.study, header.seed, study, seed)
+    if found:
+        more = f" (and {len(found) - 1} more differences)" if len(found) > 1 else ""
+        raise InputError(
+            f"{folder}: holds another study: {found[0]}{more}; "
+            "allowed: the same protocol, course and seed, or another folder"
+        )
+    return header
 
 
 @contextmanager
@@ -77,7 +102,7 @@ def held(folder: Path) -> Iterator[None]:
 def _refuse_other_things(folder: Path) -> None:
     if folder.exists() and not folder.is_dir():
         raise InputError(f"{folder}: is a file; allowed: a new folder, or this study's")
-    if not folder.exists() or (folder / STUDY_FILE).exists():
+    if not folder.exists():
         return
     strangers = sorted(p.name for p in folder.iterdir() if not is_partial(p))
     if strangers:
@@ -85,18 +110,6 @@ def _refuse_other_things(folder: Path) -> None:
             f"{folder}: holds something else ({strangers[0]}); "
             "allowed: a new or empty folder, or this study's"
         )
-
-
-def _same_study(folder: Path, study: ResolvedStudy, seed: int) -> StudyHeader:
-    header = read_header(folder)
-    found = differences(header.study, header.seed, study, seed)
-    if found:
-        more = f" (and {len(found) - 1} more differences)" if len(found) > 1 else ""
-        raise InputError(
-            f"{folder}: holds another study: {found[0]}{more}; "
-            "allowed: the same protocol, course and seed, or another folder"
-        )
-    return header
 
 
 def _enlarge(folder: Path, header: StudyHeader, study: ResolvedStudy) -> None:
