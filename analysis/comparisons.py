@@ -179,8 +179,8 @@ def _with_laps(frames: StudyFrames, result: PairedComparison) -> PairedCompariso
         return result
     return replace(
         result,
-        ratio_of_means=ratio_of_means(wide[reference], wide[condition], rng),
-        mean_of_ratios=mean_of_ratios(wide[reference], wide[condition], rng),
+        ratio_of_means=ratio_of_means(wide[reference], wide[condition]),
+        mean_of_ratios=mean_of_ratios(wide[reference], wide[condition]),
     )
 
 

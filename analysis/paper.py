@@ -1,4 +1,4 @@
-"""The paper's figures, as data: Soh & Demiris (2014), When and How to Help, sections IV and V."""
+"""The paper's figures, as data: Soh & Demiris (2013), When and How to Help, sections IV and V."""
 
 from dataclasses import dataclass
 

@@ -131,11 +131,11 @@ def intervals() -> dict[str, tuple[Callable[[Rng], TestResult], float]]:
         "rank-biserial, BCa": (
             lambda r: rank_biserial(-np.subtract(*pairs(r, EFFECT)), r),
             float(2 * (walsh > 0).mean() - 1)),
-        "ratio of means, BCa": (
-            lambda r: ratio_of_means(*pairs(r, EFFECT), r),
+        "ratio of means, Fieller": (
+            lambda r: ratio_of_means(*pairs(r, EFFECT)),
             float(reference.mean() / condition.mean())),
-        "mean of ratios, BCa": (
-            lambda r: mean_of_ratios(*pairs(r, EFFECT), r), float((reference / condition).mean())),
+        "mean of ratios, t": (
+            lambda r: mean_of_ratios(*pairs(r, EFFECT)), float((reference / condition).mean())),
         "mixed model, t": (lambda r: lap_time_model(laps(r, EFFECT), "c1", r)[-1], EFFECT),
         "odds ratio, percentile": (
             lambda r: proportional_odds(*answers(r, 1.5)[::-1], r),

@@ -9,7 +9,7 @@ def paper_section(results: StudyResults) -> Section:
     """Return the paper's number beside each of ours."""
     blocks: list[Block] = [
         Paragraph(
-            "Soh & Demiris (2014), When and How to Help: An Iterative Probabilistic Model for "
+            "Soh & Demiris (2013), When and How to Help: An Iterative Probabilistic Model for "
             "Learning Assistance by Demonstration. Where a printed number does not add up, the "
             "remark says so."
         )

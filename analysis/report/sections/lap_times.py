@@ -35,8 +35,8 @@ def lap_time_section(results: StudyResults) -> Section:
             table("lap_times", "Lap times of finished laps, in seconds. Unfinished laps and laps "
                   "that were not driven are counted, not averaged.", times, _TIMES),
             table("speedups", "Speedups over complete pairs. Percentages are reference / condition "
-                  "(the paper's 137%): above 100% the condition is faster. Intervals: 95%, of the "
-                  "gain from t, of the ratios from a BCa bootstrap over participants.",
+                  "(the paper's 137%): above 100% the condition is faster. Intervals: 95%, of "
+                  "gain and mean of ratios from t, of the ratio of means after Fieller.",
                   speedup_table(results.lap_times), _SPEEDUPS),
         ),
     )  # fmt: skip

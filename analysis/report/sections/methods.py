@@ -53,9 +53,10 @@ def _tests(results: StudyResults) -> str:
         "exploratory ones are not corrected. Equivalence is tested with two one-sided t-tests "
         "(TOST) within declared margins. Two-sample Kolmogorov-Smirnov tests are exact for small "
         "samples and descriptive, since the samples come from the same people. Speedups are given "
-        "as ratio of means and as mean of ratios over complete pairs. A pair with a missing value "
-        "is left out of its comparison and counted. Lap times exist for finished laps only; other "
-        "outcomes of the lap table include unfinished laps, measures from steps do not."
+        "as ratio of means (Fieller interval) and as mean of ratios (t interval) over complete "
+        "pairs. A pair with a missing value is left out of its comparison and counted. Lap times "
+        "exist for finished laps only; other outcomes of the lap table include unfinished laps, "
+        "measures from steps do not."
     )
 
 

@@ -14,6 +14,7 @@ from analysis.stats.kolmogorov_smirnov import asymptotic_p, two_sample_ks
 from analysis.stats.mean_difference import mean_difference
 from analysis.stats.mixed_model import lap_time_model
 from analysis.stats.proportional_odds import proportional_odds
+from analysis.stats.ratio import mean_of_ratios, ratio_of_means
 from analysis.stats.signed_rank import _normal_p, signed_rank, signed_ranks
 from analysis.stats.tost import paired_tost
 
@@ -99,6 +100,15 @@ def test_effect_sizes(difference):
     rng = np.random.default_rng(0)
     assert cohen_dz(difference, rng).estimate == r("d_z")
     assert rank_biserial(difference, rng).estimate == r("rank_biserial")
+
+
+@pytest.mark.parametrize("estimate", [ratio_of_means, mean_of_ratios])
+def test_speedups(lap_times, estimate):
+    """Fieller's interval found with uniroot and t.test; t.test of the ratios."""
+    found = estimate(lap_times["limited"], lap_times["model"])
+    assert found.estimate == r(estimate.__name__)
+    assert found.low == r(f"{estimate.__name__}.low")
+    assert found.high == r(f"{estimate.__name__}.high")
 
 
 def test_tost(difference):

@@ -26,7 +26,10 @@ laps.round(4).to_csv(HERE / "laps.csv", index=False)
 
 # The same with the order turned round for every other participant, and two laps missing.
 turned = laps.assign(
-    lap=[5 - lap if int(p[1:]) % 2 else lap for p, lap in zip(laps["participant"], laps["lap"], strict=True)]
+    lap=[
+        5 - lap if int(p[1:]) % 2 else lap
+        for p, lap in zip(laps["participant"], laps["lap"], strict=True)
+    ]
 )
 turned.drop([5, 30]).round(4).to_csv(HERE / "laps_turned.csv", index=False)
 

@@ -57,6 +57,17 @@ put("d_z", mean(d) / sd(d))
 r <- rank(abs(d))
 put("rank_biserial", (sum(r[d > 0]) - sum(r[d < 0])) / sum(r))
 
+# Ratio of means: Fieller's interval, found as the ratios that a paired t-test does not reject.
+put("ratio_of_means", mean(limited) / mean(model))
+reject <- function(r) t.test(limited - r * model)$p.value - 0.05
+at <- mean(limited) / mean(model)
+put("ratio_of_means.low", uniroot(reject, c(at / 2, at - 1e-9), tol = 1e-12)$root)
+put("ratio_of_means.high", uniroot(reject, c(at + 1e-9, at * 2), tol = 1e-12)$root)
+r <- t.test(limited / model)
+put("mean_of_ratios", r$estimate)
+put("mean_of_ratios.low", r$conf.int[1])
+put("mean_of_ratios.high", r$conf.int[2])
+
 # TOST written out: two one-sided paired t-tests, margin 10 s.
 lower <- t.test(d, mu = -10, alternative = "greater")
 upper <- t.test(d, mu = 10, alternative = "less")
