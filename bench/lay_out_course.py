@@ -269,7 +269,7 @@ def write(out: Path, layout: Layout = LAB_OFFICE) -> Course:
     """Write a layout as the course lab-office; return the course."""
     data = lay_out(
         layout, "lab-office", "Lab office loop",
-        "A loop like Fig. 2 of Soh & Demiris (2014): from S through sharp right turns at R1 and "
+        "A loop like Fig. 2 of Soh & Demiris (2013): from S through sharp right turns at R1 and "
         "R2, and back to F through two soft right bends.",
     )  # fmt: skip
     yaml = YAML()

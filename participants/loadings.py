@@ -101,7 +101,7 @@ DRIVING_ASSISTANCE: Mapping[str, Loadings] = {
     "Q10": Loadings(intercept=0.2, slowness=-1.0, help=-0.6, collisions=-0.3, liking=-0.3),
     "Q11": Loadings(intercept=-0.2, help=1.2, slowness=-1.0, opposition=-1.2, liking=1.0),
 }
-"""The eleven statements of Soh & Demiris (2014), section V.A."""
+"""The eleven statements of Soh & Demiris (2013), section V.A."""
 
 KNOWN: Mapping[str, Mapping[str, Loadings]] = {"driving-assistance": DRIVING_ASSISTANCE}
 """Loadings by instrument and item."""

@@ -84,7 +84,7 @@ class Traits(_Ranged):
     """
 
     preferred_speed_m_s: Annotated[
-        float, Trait(0.15, 0.7, "top speed of the chair: Soh & Demiris (2014), section IV.A")
+        float, Trait(0.15, 0.7, "top speed of the chair: Soh & Demiris (2013), section IV.A")
     ]
     lookahead_s: Annotated[
         float, Trait(0.5, 5.0, "preview of 1 to 3 s: Salvucci & Gray (2004), Perception 33")
@@ -109,7 +109,7 @@ class Traits(_Ranged):
     ]
     lane_offset_m: Annotated[float, Trait(-0.3, 0.3, "assumption: habits of centimetres")]
     inexperience: Annotated[
-        float, Trait(0.0, 10.0, "spread of first laps: Soh & Demiris (2014), section V.B")
+        float, Trait(0.0, 10.0, "spread of first laps: Soh & Demiris (2013), section V.B")
     ]
     corner_share: Annotated[float, Trait(0.0, 1.0, "free: no published figure determines it")]
     practice_exponent: Annotated[
@@ -123,7 +123,7 @@ class Traits(_Ranged):
         float, Trait(0.0, 1.0, "gain taken over by the person: McRuer & Jex (1967)")
     ]
     patience_s: Annotated[
-        float, Trait(10.0, 3600.0, "assumption: none of twelve left, Soh & Demiris (2014)")
+        float, Trait(10.0, 3600.0, "assumption: none of twelve left, Soh & Demiris (2013)")
     ]
 
 
@@ -152,7 +152,7 @@ class ResponseStyle(_Ranged):
     extremity: Annotated[float, Trait(0.2, 5.0, "Greenleaf (1992), Public Opinion Quarterly 56")]
     liking: Annotated[float, Trait(-3.0, 3.0, "assumption: general attitude to assistance")]
     missing_share: Annotated[
-        float, Trait(0.0, 0.5, "one of twelve left a survey unfinished: Soh & Demiris (2014)")
+        float, Trait(0.0, 0.5, "one of twelve left a survey unfinished: Soh & Demiris (2013)")
     ]
 
 

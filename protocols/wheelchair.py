@@ -1,6 +1,6 @@
 """The wheelchair as everybody knows it: its size and what it can do.
 
-A paediatric powered wheelchair like ARTY's (Soh & Demiris 2014, section V); the top speeds are
+A paediatric powered wheelchair like ARTY's (Soh & Demiris 2013, section V); the top speeds are
 those of section IV.A.
 """
 
