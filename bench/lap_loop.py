@@ -48,8 +48,11 @@ SIMULATORS = {
 
 PARTS = ("sensing+stepping", "whole lap")
 
-SECONDS = {"sensing+stepping": 6.0, "whole lap": 15.0}
-"""What one repetition simulates."""
+SECONDS = {"sensing+stepping": 4.0, "whole lap": 12.0}
+"""What one stretch simulates."""
+
+SHORTEST_TURN = 0.15
+"""A simulator repeats its stretch until so much CPU time has passed, s."""
 
 FIGURE = Path(__file__).parent.parent / "docs" / "figures" / "lap_loop.svg"
 
@@ -141,17 +144,20 @@ def measure(cell: Cell, factories: dict[str, Factory], repetitions: int) -> Iter
 
 
 def _timed(simulator: Simulator, course: Course, cell: Cell, part: str) -> float:
-    """Return simulated seconds per CPU second of one repetition."""
-    simulated = SECONDS[part]
-    pursuit = Pursuit(course)
-    simulator.restart()
-    gc.collect()
-    begun = time.process_time()
-    if part == "whole lap":
-        simulated = simulator.drive_lap(simulated)
-    else:
-        sense_and_step(simulator, pursuit, round(simulated * cell.rate_hz))
-    return simulated / (time.process_time() - begun)
+    """Return simulated seconds per CPU second of one turn."""
+    simulated = spent = 0.0
+    while spent < SHORTEST_TURN:
+        pursuit = Pursuit(course)
+        simulator.restart()
+        gc.collect()
+        begun = time.process_time()
+        if part == "whole lap":
+            simulated += simulator.drive_lap(SECONDS[part])
+        else:
+            sense_and_step(simulator, pursuit, round(SECONDS[part] * cell.rate_hz))
+            simulated += SECONDS[part]
+        spent += time.process_time() - begun
+    return simulated / spent
 
 
 def print_table(rows: list[Row], part: str) -> None:
