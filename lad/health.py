@@ -131,7 +131,7 @@ def watch(health: Health, matrix: KernelMatrix, new: int, novelty: float) -> Non
     if health.probes % ROUND_EVERY == 0:
         other = matrix.residual_of_column(health.probes // ROUND_EVERY % state.n)
         health.residual = max(health.residual, other)
-    if health.residual > health.limit:
+    if not health.residual <= health.limit:  # NaN counts as too large
         repair(health, matrix)
         health.residual = matrix.residual_of_column(slot)
         health.limit = max(LIMIT, 10.0 * health.residual)
