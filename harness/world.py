@@ -16,6 +16,7 @@ from lad.command import Command
 from protocols.course.obstacles import obstacle_boxes
 from protocols.course.schema import Course
 from protocols.pose import Pose
+from protocols.start_noise import StartNoise
 from protocols.study import LaserSettings
 from protocols.wheelchair import LASER_AHEAD
 
@@ -95,6 +96,8 @@ class BulletWorld:
         Length of a control step, s.
     scan_period
         Time between laser scans, s; in between, the last one stands.
+    start_noise
+        How exactly the chair is put at the start; exactly when None.
     """
 
     def __init__(
@@ -103,10 +106,12 @@ class BulletWorld:
         laser: LaserSettings | None = None,
         period: float = 0.1,
         scan_period: float = SCAN_PERIOD,
+        start_noise: StartNoise | None = None,
     ) -> None:
         settings = LaserSettings() if laser is None else laser
         boxes = obstacle_boxes(course)
         self._start = Pose(course.start.x, course.start.y, course.start.heading)
+        self._start_noise = StartNoise() if start_noise is None else start_noise
         self._period = period
         self._substeps = math.ceil(period / LONGEST_STEP - 1e-9)
         self._chair = BulletChair(boxes, period / self._substeps)
@@ -140,7 +145,7 @@ class BulletWorld:
         self._step = 0
         self._seen = None
         self._controller.reset()
-        self._chair.place(self._start)
+        self._chair.place(self._start_pose(rng))
         self._look(contact=False)
 
     def observe(self) -> Observation:
@@ -161,6 +166,17 @@ class BulletWorld:
     def close(self) -> None:
         """Give the physics engine back; the world is of no use afterwards."""
         self._chair.close()
+
+    def _start_pose(self, rng: np.random.Generator) -> Pose:
+        noise, start = self._start_noise, self._start
+        if noise == StartNoise():  # nothing is drawn that would move the laser's draws
+            return start
+        x, y, turn = rng.uniform(-1.0, 1.0, size=3)
+        return Pose(
+            start.x + noise.position_m * x,
+            start.y + noise.position_m * y,
+            start.heading + noise.heading_rad * turn,
+        )
 
     def _now(self) -> Observation:
         if self._seen is None:

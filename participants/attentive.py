@@ -48,10 +48,14 @@ class AttentiveOptions(Options):
         Median time from the beginning of a turn to the takeover, s.
     reaction_spread
         Standard deviation of its logarithm, between interventions.
+    pace
+        How fast it drives through a corner, as a share of the speed at which the chair, turning
+        as fast as it can, could just follow it.
     """
 
     reaction_s: Annotated[float, Field(ge=0.0, le=3.0)] = 0.4
     reaction_spread: Annotated[float, Field(ge=0.0, le=1.0)] = 0.25
+    pace: Annotated[float, Field(ge=0.2, le=1.0)] = 1.0
 
 
 class AttentiveDemonstrator:
@@ -65,7 +69,7 @@ class AttentiveDemonstrator:
     course
         The course.
     options
-        How fast it reacts.
+        How fast it reacts, and drives.
     rng
         Its random numbers; each lap gets a child of its own.
     """
@@ -104,7 +108,9 @@ class AttentiveDemonstrator:
         if self._sight.t < self._acts_at:
             return NO_ASSISTANCE
         if self._hand is None:
-            self._hand = HelpingHand(self._line, corner, self._raster, self._lap_rng)
+            self._hand = HelpingHand(
+                self._line, corner, self._raster, self._lap_rng, self._options.pace
+            )
         return Assistance(helping=True, command=self._hand.steer(self._sight, self._arc))
 
     def _corner_at(self, arc: float) -> Stretch | None:

@@ -1,13 +1,15 @@
 """The paper's RD: drives along a planned path by the Dynamic Window Approach (section IV.A)."""
 
 import math
+from typing import Annotated
 
 import numpy as np
+from pydantic import Field
 
 from lad.command import Command
 from participants.dwa import DynamicWindow, choose
 from participants.localisation import Localisation
-from participants.options import NoOptions, read_options
+from participants.options import Options, read_options
 from participants.planning.field import scan_field
 from participants.planning.route import Route, plan
 from participants.planning.surroundings import known_raster
@@ -15,12 +17,26 @@ from participants.recovery import Recovery
 from participants.setup import DriverSetup
 from participants.sight import Sight
 from protocols.course.occupancy import Occupancy
+from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
 
 LASER_RANGE = 4.0
 """Returns from here on are none, m."""
 
 PATIENCE = 1.0
 """Standing still against its will for longer makes it try something else, s."""
+
+
+class AutonomousOptions(Options):
+    """What a protocol may say about an autonomous driver.
+
+    Attributes
+    ----------
+    control_noise
+        Standard deviation of the error of either velocity it commands, as a share of the
+        velocity; fresh in every step.
+    """
+
+    control_noise: Annotated[float, Field(ge=0.0, le=0.2)] = 0.0
 
 
 class AutonomousDriver:
@@ -41,6 +57,8 @@ class AutonomousDriver:
         Settings of the local planner.
     lookahead
         How far ahead on the path the local planner's target lies, m.
+    options
+        What else a protocol may say.
     """
 
     def __init__(
@@ -50,23 +68,38 @@ class AutonomousDriver:
         rng: np.random.Generator,
         window: DynamicWindow | None = None,
         lookahead: float = 0.9,
+        *,
+        options: AutonomousOptions | None = None,
     ) -> None:
         self._route = route
         self._raster = raster
         self._window = window if window is not None else DynamicWindow()
         self._lookahead = lookahead
+        self._noise = 0.0 if options is None else options.control_noise
         self._localisation = Localisation(rng)
+        self._rng = rng
         self._arc: float | None = None
         self._recovery = Recovery(self._raster, PATIENCE)
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:  # noqa: ARG002  # the seam's
         """Look for itself on the path anew."""
         self._localisation = Localisation(rng)
+        (self._rng,) = rng.spawn(1)
         self._arc = None
         self._recovery = Recovery(self._raster, PATIENCE)
 
     def act(self, sight: Sight) -> Command:
         """Choose the best velocities towards a point ahead on the path."""
+        return self._inexact(self._choose(sight))
+
+    def _inexact(self, command: Command) -> Command:
+        v, w = 1.0 + self._noise * self._rng.normal(size=2)
+        return Command(
+            min(float(v) * command.v, MAX_SPEED),
+            min(max(float(w) * command.w, -MAX_TURN_RATE), MAX_TURN_RATE),
+        )
+
+    def _choose(self, sight: Sight) -> Command:
         target = self._target(sight)
         field = scan_field(sight.ranges, sight.bearings, sight.laser, LASER_RANGE)
         choice = choose(field, sight.velocity, target, self._window)
@@ -91,6 +124,7 @@ class AutonomousDriver:
 
 
 def autonomous_driver(setup: DriverSetup) -> AutonomousDriver:
-    """Return the autonomous driver for a course; it takes no options."""
-    read_options("driver 'autonomous'", NoOptions, setup.options)
-    return AutonomousDriver(plan(setup.course), known_raster(setup.course), setup.rng)
+    """Return the autonomous driver for a course; see ``AutonomousOptions``."""
+    options = read_options("driver 'autonomous'", AutonomousOptions, setup.options)
+    route, raster = plan(setup.course), known_raster(setup.course)
+    return AutonomousDriver(route, raster, setup.rng, options=options)

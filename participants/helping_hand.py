@@ -52,16 +52,23 @@ class HelpingHand:
         What stands where.
     rng
         Random numbers of the hand.
+    pace
+        Share of the speed at which the corner could just be driven.
     """
 
     def __init__(
-        self, line: Centreline, corner: Stretch, raster: Occupancy, rng: np.random.Generator
+        self,
+        line: Centreline,
+        corner: Stretch,
+        raster: Occupancy,
+        rng: np.random.Generator,
+        pace: float = 1.0,
     ) -> None:
         self._line = line
         turn = line.point(corner.end).heading - line.point(corner.start).heading
         radius = (corner.end - corner.start) / max(abs(math.remainder(turn, math.tau)), 0.1)
-        # As fast as the corner can be driven while turning as fast as the chair can.
-        self._speed = min(max(radius * MAX_TURN_RATE, SLOWEST), FASTEST)
+        # The chair turning as fast as it can just follows the corner at this speed.
+        self._speed = min(max(pace * radius * MAX_TURN_RATE, SLOWEST), FASTEST)
         self._hand = Hand(LAG, NOISE, rng)
         self._recovery = Recovery(raster, PATIENCE)
         self._t: float | None = None

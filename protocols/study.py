@@ -11,6 +11,7 @@ from protocols.consistency import check_consistency
 from protocols.declared import Comparison, Exclusion
 from protocols.part import Name, Part, shipped_or_factory
 from protocols.plan import PlannedLap
+from protocols.start_noise import StartNoise
 
 
 class ModelChoice(Part):
@@ -62,6 +63,10 @@ class StudyProtocol(Part):
         What a participant does, in order.
     control_period_s
         Length of a control step, in s.
+    laser
+        The simulated laser.
+    start_noise
+        How exactly the chair is put at the start.
     """
 
     schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
@@ -77,6 +82,7 @@ class StudyProtocol(Part):
     analyses: tuple[Comparison, ...] = ()
     control_period_s: Annotated[float, Field(ge=0.02, le=0.5)] = 0.1
     laser: LaserSettings = LaserSettings()
+    start_noise: StartNoise = StartNoise()
 
     @model_validator(mode="after")
     def _parts_agree(self) -> Self:

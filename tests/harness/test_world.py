@@ -14,6 +14,7 @@ from lad.inputs import N_SEGMENTS
 from protocols.course.drivable import footprint
 from protocols.course.obstacles import floor_plan
 from protocols.load import load_course
+from protocols.start_noise import StartNoise
 from protocols.study import LaserSettings
 from protocols.wheelchair import ACCELERATION, LASER_AHEAD, TURN_ACCELERATION
 
@@ -55,6 +56,22 @@ def test_a_lap_starts_at_the_start_at_rest(world):
     assert seen.pose == pytest.approx((start.x, start.y, start.heading), abs=1e-9)
     assert seen.velocity == STILL
     assert not seen.contact
+
+
+def test_start_noise_moves_the_start_within_its_bounds():
+    """Each lap begins elsewhere, never farther off than the protocol says, by its own draws."""
+    noise = StartNoise(position_m=0.1, heading_rad=0.05)
+    world = BulletWorld(COURSE, start_noise=noise)
+    start = np.array([COURSE.start.x, COURSE.start.y, COURSE.start.heading])
+    poses = []
+    for seed in (*range(40), 0):
+        world.reset(np.random.default_rng(seed))
+        poses.append(np.array(world.observe().pose) - start)
+    world.close()
+    off = np.abs(poses)
+    assert (off <= np.array([0.1, 0.1, 0.05]) + 1e-9).all()
+    assert (off.max(axis=0) > np.array([0.08, 0.08, 0.04])).all()
+    np.testing.assert_array_equal(poses[0], poses[-1])
 
 
 def test_observing_changes_nothing(world):

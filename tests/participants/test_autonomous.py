@@ -3,10 +3,15 @@
 import numpy as np
 import pytest
 
+from lad.command import Command
 from participants.registry import make_driver
 from participants.setup import DriverSetup
+from participants.sight import Sight
 from protocols.errors import InputError
 from protocols.pose import Pose
+from protocols.wheelchair import LASER_AHEAD
+
+BEARINGS = np.radians(np.linspace(-120.0, 120.0, 180))
 
 
 @pytest.fixture
@@ -60,8 +65,30 @@ def test_it_gets_free_from_a_bad_place(driver, room, limitation):
     assert lap.finished
 
 
-def test_it_takes_no_options(lab_office):
+def test_control_noise_makes_commands_inexact(lab_office, room):
+    """Commands scatter by the share the protocol says, and never leave what the chair can do."""
+    room.pose = Pose(1.0, 0.0, 0.0)
+    sight = Sight(
+        t=0.0, pose=room.pose, velocity=Command(0.4, 0.0), ranges=room.scan(), bearings=BEARINGS,
+        laser=LASER_AHEAD, gates_passed=0, helped=False,
+    )  # fmt: skip
+    commands = {}
+    for noise in (0.0, 0.05):
+        setup = DriverSetup(lab_office, np.random.default_rng(0), options={"control_noise": noise})
+        rd = make_driver("autonomous", setup)
+        rows = []
+        for seed in range(200):
+            rd.start_lap(0, np.random.default_rng(seed))
+            rows.append(rd.act(sight))
+        commands[noise] = np.array(rows)
+    inside = np.abs(commands[0.05][:, 0]) < 0.7
+    ratio = commands[0.05][inside, 0] / commands[0.0][inside, 0]
+    assert ratio.std() == pytest.approx(0.05, rel=0.2)
+    assert (np.abs(commands[0.05]) <= (0.7, 0.5)).all()
+
+
+def test_options_are_checked(lab_office):
     """A misspelt option is an error, not silence."""
     setup = DriverSetup(lab_office, np.random.default_rng(0), options={"speed": 1})
-    with pytest.raises(InputError, match="'speed' does not exist; allowed: it takes no options"):
+    with pytest.raises(InputError, match="'speed' does not exist; allowed: control_noise"):
         make_driver("autonomous", setup)

@@ -21,6 +21,7 @@ from protocols.declared import LAP_OUTCOMES, Comparison, Exclusion
 from protocols.instrument import Instrument, Item
 from protocols.plan import PlannedLap, SurveyPlan
 from protocols.record.minimal import LAPS, PARTICIPANTS, STEPS, SURVEYS
+from protocols.start_noise import StartNoise
 from protocols.study import LaserSettings, ModelChoice, StudyProtocol
 
 _PAGE = (Path(__file__).parents[2] / "docs" / "protocols.md").read_text(encoding="utf-8")
@@ -29,7 +30,7 @@ _NAMED = {word for code in re.findall(r"`([^`]+)`", _PROSE) for word in re.finda
 _MODELS = (
     StudyProtocol, Cohort, Demographics, AgeRange, DriverChoice, ImpairmentChoice,
     TraitDistribution, Condition, LimitationSettings, PlannedLap, SurveyPlan, ModelChoice,
-    LADParameters, LaserSettings, Exclusion, Comparison, Instrument, Item,
+    LADParameters, LaserSettings, StartNoise, Exclusion, Comparison, Instrument, Item,
 )  # fmt: skip
 
 
