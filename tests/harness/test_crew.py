@@ -1,0 +1,86 @@
+"""Sessions in worker processes: the same bytes anywhere, and no failure goes unsaid."""
+
+import pytest
+
+from harness.crew import Failed, Finished, attempt, hire, rehearse, run_sessions
+from harness.plan import portable
+from harness.processes import CHANCES, Died
+from protocols.errors import InputError
+
+pytestmark = pytest.mark.usefixtures("ready")
+
+
+def sessions(plan, numbers, jobs):
+    """Return what became of each session, by number; the last word counts."""
+    with hire(jobs) as workers:
+        return dict(run_sessions(workers, plan, numbers))
+
+
+def test_a_session_is_a_function_of_plan_and_number(make_plan):
+    """Here or in a worker, alone or after others, first or again: the same bytes."""
+    plan = portable(make_plan(participants=4))
+    here = {n: attempt(plan, n).files for n in (3, 1, 3, 2, 4)}
+    for jobs in (1, 2):
+        there = sessions(plan, [4, 3, 2, 1], jobs)
+        assert {n: there[n].files for n in there} == here
+    assert len({files["steps-0.parquet"] for files in here.values()}) == 4
+
+
+def test_a_session_that_raises_fails_alone(make_plan, unlucky, tmp_path):
+    """Its traceback comes back; the other participants' sessions finish."""
+    (tmp_path / "mood").touch()
+    driver = f"{{use: 'some_drivers:moody', options: {{file: '{tmp_path / 'mood'}'}}}}"
+    plan = make_plan(participants=6, driver=driver)
+    ended = sessions(plan, range(1, 7), 2)
+    failed = [n for n in ended if isinstance(ended[n], Failed)]
+    assert 0 < len(failed) < 6
+    assert sorted(failed) == unlucky(plan)
+    assert all(ended[n].trace.endswith("RuntimeError: I am in no mood\n") for n in failed)
+    assert all(isinstance(ended[n], Finished) for n in ended if n not in failed)
+
+
+def test_a_session_that_kills_its_process_fails_alone(make_plan, unlucky):
+    """It is given up after some processes; the other participants' sessions finish."""
+    plan = make_plan(participants=4, driver="{use: 'some_drivers:deadly'}")
+    with hire(2) as workers:
+        told = list(run_sessions(workers, plan, range(1, 5)))
+    died = [n for n, session in told if isinstance(session, Died)]
+    assert sorted(died) == sorted(unlucky(plan) * CHANCES)
+    finished = [n for n, session in told if isinstance(session, Finished)]
+    assert sorted(finished + unlucky(plan)) == [1, 2, 3, 4]
+
+
+def test_warnings_come_back_with_the_session(make_plan):
+    """What Python warns of in a worker is kept, not printed between the lines."""
+    plan = make_plan(driver="{use: 'some_drivers:warner'}")
+    (session,) = sessions(plan, [2], 1).values()
+    assert len(session.warned) == 1
+    assert "some_drivers.py" in session.warned[0]
+    assert session.warned[0].endswith("UserWarning: it is getting late")
+    assert session.wall_s > 0
+
+
+@pytest.mark.parametrize(
+    ("driver", "parts"),
+    [
+        ("{use: 'no_module:driver'}", ["no_module", "allowed"]),
+        ("{use: 'some_drivers:none_such'}", ["some_drivers", "none_such"]),
+        ("{use: 'some_drivers:impossible'}", ["ValueError: no such thing", "some_drivers.py"]),
+        ("{use: human, options: {speed: 9}}", ["speed"]),
+    ],
+)
+def test_a_part_that_cannot_be_made_is_an_input_fault(make_plan, driver, parts):
+    """The rehearsal is held where the sessions are run, and its faults come back as one line."""
+    with hire(1) as workers, pytest.raises(InputError) as error:
+        rehearse(workers, make_plan(driver=driver))
+    for part in parts:
+        assert part in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_a_plan_that_can_be_carried_out_passes_the_rehearsal(make_plan):
+    """The workers that rehearsed go on to run the sessions."""
+    plan = make_plan()
+    with hire(1) as workers:
+        rehearse(workers, plan)
+        assert [n for n, _ in run_sessions(workers, plan, [1])] == [1]
