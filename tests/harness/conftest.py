@@ -28,7 +28,7 @@ from lad.command import Command
 class Straight:
     def __init__(self, setup):
         self.setup = setup
-        self.unlucky = setup.rng.random() < 0.5
+        self.unlucky = setup.rng.random() < 0.6
     def start_lap(self, lap, rng): pass
     def act(self, sight): return Command(0.2, 0.0)
 
@@ -75,7 +75,7 @@ def unlucky():
 
     def numbers(plan):
         planned = range(1, plan.study.protocol.cohort.participants + 1)
-        return [n for n in planned if stream(plan.seed, n, "driver").random() < 0.5]
+        return [n for n in planned if stream(plan.seed, n, "driver").random() < 0.6]
 
     return numbers
 

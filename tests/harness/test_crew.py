@@ -44,6 +44,7 @@ def test_a_session_that_kills_its_process_fails_alone(make_plan, unlucky):
     plan = make_plan(participants=4, driver="{use: 'some_drivers:deadly'}")
     with hire(2) as workers:
         told = list(run_sessions(workers, plan, range(1, 5)))
+    assert 0 < len(unlucky(plan)) < 4
     died = [n for n, session in told if isinstance(session, Died)]
     assert sorted(died) == sorted(unlucky(plan) * CHANCES)
     finished = [n for n, session in told if isinstance(session, Finished)]
