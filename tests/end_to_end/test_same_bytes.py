@@ -1,0 +1,44 @@
+"""The same seed gives the same bytes; another seed gives others."""
+
+from pathlib import Path
+
+import pytest
+
+
+def test_the_same_seed_gives_the_same_bytes(run_quick, record, undisturbed, tmp_path):
+    """Again, and with another number of processes."""
+    ended = run_quick(tmp_path / "again", "--jobs", 1)
+    assert ended.code == 0, ended.err
+    assert record(tmp_path / "again") == undisturbed
+
+
+def test_another_seed_gives_other_bytes(run_quick, record, undisturbed, tmp_path):
+    """Every table and every lap differs, and so does every model that could have learnt."""
+    ended = run_quick(tmp_path / "other", "--seed", 1)
+    assert ended.code == 0, ended.err
+    other = record(tmp_path / "other")
+    assert other.keys() == undisturbed.keys()
+    same = {name for name in other if other[name] == undisturbed[name]}
+    assert {Path(name).name for name in same} <= {"codebook.json"}
+
+
+def test_what_is_compared_is_the_whole_record(undisturbed):
+    """Sessions with steps, rows, model and manifest; the three tables; the codebook."""
+    of_p0001 = {"lap_rows.parquet", "manifest.json", "model.npz", "participant_row.parquet",
+                "steps-0.parquet", "steps-1.parquet", "steps-2.parquet",
+                "survey_rows.parquet"}  # fmt: skip
+    names = {Path(name).name for name in undisturbed if "/P0001/" in name}
+    assert names == of_p0001
+    assert {name for name in undisturbed if "/" not in name} == {
+        "codebook.json", "laps.parquet", "participants.parquet", "surveys.parquet",
+    }  # fmt: skip
+
+
+@pytest.mark.slow
+def test_the_shipped_study_gives_the_same_bytes(start, record, tmp_path):
+    """The four-lap study in one process and in two, with its report, gives one record."""
+    for name, jobs in (("a", 1), ("b", 2)):
+        ended = start("run", "--participants", 3, "--jobs", jobs, "--out", tmp_path / name).ended()
+        assert ended.code == 0, ended.err
+        assert f"Report: {tmp_path / name}" in ended.out
+    assert record(tmp_path / "a") == record(tmp_path / "b")
