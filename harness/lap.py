@@ -113,6 +113,9 @@ class Lap:
         self._seen = world.observe()
         self._intent = STILL
         self._helped = False
+        # Asked once: a protocol's isinstance costs more than a model's prediction.
+        self._onlookers = [a for a in (cast.demonstrator, cast.model) if isinstance(a, Onlooker)]
+        self._learner = cast.model if rules.training and isinstance(cast.model, Learner) else None
 
     def drive(self, recorder: Recorder, clock: Clock) -> Ending:
         """Drive until the last gate, the time limit or a withdrawal."""
@@ -123,8 +126,8 @@ class Lap:
             except WithdrewError as withdrawal:
                 return self._ending("withdrew", self._seen.t, str(withdrawal))
             recorder.record(step)
-            if self._rules.training and isinstance(self._cast.model, Learner):
-                self._cast.model.learn(step.demonstrator.helping, step.demonstrator.command)
+            if self._learner is not None:
+                self._learner.learn(step.demonstrator.helping, step.demonstrator.command)
             crossed = self._gates.advance(step.seen.pose, step.result.pose)
             if crossed is not None and self._gates.finished:
                 return self._ending("finished", step.seen.t + crossed * self._world.period)
@@ -142,8 +145,9 @@ class Lap:
         self._intent = self._intent if answer is None else answer
         limited = rules.limitation(self._intent)
         x = as_inputs(limited, seen.velocity, seen.segments)
-        demonstrator = _ask(cast.demonstrator, sight, x)
-        model = _ask(cast.model, sight, x)
+        for onlooker in self._onlookers:  # only who stands in the room gets to see it
+            onlooker.look(sight)
+        demonstrator, model = cast.demonstrator.assist(x), cast.model.assist(x)
         voice = {"none": NO_ASSISTANCE, "demonstrator": demonstrator, "model": model}
         assistance = voice[rules.assistant]
         arbitrated = rules.arbitration(limited, assistance)
@@ -170,10 +174,3 @@ class Lap:
 
     def _ending(self, reason: EndReason, t: float, withdrawal: str | None = None) -> Ending:
         return Ending(reason, t, self._gates.passed, withdrawal)
-
-
-def _ask(assistant: Assistant, sight: Sight, x: NDArray[np.float64]) -> Assistance:
-    """Ask an assistant; only one who stands in the room gets to see it."""
-    if isinstance(assistant, Onlooker):
-        assistant.look(sight)
-    return assistant.assist(x)
