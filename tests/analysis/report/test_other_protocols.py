@@ -12,7 +12,7 @@ schema: 1
 name: other
 title: Another study
 course: lab-office
-cohort: {participants: 4, driver: {use: DRIVER}}
+cohort: {participants: 2, driver: {use: DRIVER}}
 conditions:
   free: {}
   limited: {limitation: {right_turn_rad_s: 0.15}}
@@ -31,7 +31,7 @@ def page(make_study, tmp_path):
         path = tmp_path / "other.yaml"
         laps = "".join(f"  - condition: {c}\n" for c in conditions)
         path.write_text(HEAD.replace("DRIVER", driver) + laps)
-        results = analyse(make_study(path, participants=4))
+        results = analyse(make_study(path, participants=2))
         built = build_page(results)
         return results, render(built, {picture.name: b"" for picture in built.pictures})
 
@@ -52,14 +52,14 @@ def test_autonomous_drivers_are_set_against_section_iv(page):
 
 
 def test_repeated_laps_of_a_condition_are_averaged_before_pairing(page):
-    """Twelve taught laps of four people make four pairs; all twelve are in the lap times."""
+    """Six taught laps of two people make two pairs; all six are in the lap times."""
     results, text = page("autonomous", *ROBOT)
     frames = study_frames(results.frames.study)
-    assert (frames.laps["condition"] == "taught").sum() == 12
+    assert (frames.laps["condition"] == "taught").sum() == 6
     taught = next(
         c for c in results.lap_times if (c.condition, c.reference) == ("taught", "limited")
     )
-    assert taught.complete == 4
+    assert taught.complete == 2
     assert "taught" in text
 
 
