@@ -53,6 +53,10 @@ app.command("courses")(listing.courses)
 app.command("show")(listing.show)
 
 
+_INTERRUPTED = 130
+"""What typer returns for a command that Ctrl-C has ended; no command of ours returns it."""
+
+
 def main() -> None:
     """Run the command line and exit with its code."""
     sys.path.append(str(Path.cwd()))  # last, so that a folder there cannot hide what is installed
@@ -65,9 +69,11 @@ def main() -> None:
         where = context.command_path if context else "lad-study"
         code = _say(f"{where}: {fault.format_message()}", 2)
     except KeyboardInterrupt:
-        code = _say("lad-study: stopped. What was finished is kept.", 1)
+        code = _INTERRUPTED
     except OSError as fault:
         code = _say(f"lad-study: {fault.strerror or fault}: {fault.filename or ''}".rstrip(": "), 1)
+    if code == _INTERRUPTED:
+        code = _say("lad-study: stopped. What was finished is kept.", 1)
     sys.exit(code if isinstance(code, int) else 0)
 
 

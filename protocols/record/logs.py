@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from protocols.record.atomic import write_whole
+from protocols.record.atomic import naming, write_whole
 
 LOGS = "logs"
 
@@ -64,5 +64,5 @@ def _append(folder: Path, name: str, line: str, header: str) -> None:
     path = folder / LOGS / name
     path.parent.mkdir(exist_ok=True)
     first = "" if path.exists() else f"{header}\n"
-    with path.open("a", encoding="utf-8") as stream:
+    with naming(path), path.open("a", encoding="utf-8") as stream:
         stream.write(f"{first}{line}\n")

@@ -8,7 +8,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from protocols.errors import InputError
-from protocols.record.atomic import partial_beside, sync_folder
+from protocols.record.atomic import naming, partial_beside, sync_folder
 from protocols.record.parquet import parquet_settings, read_parquet
 from protocols.record.session import LAPS_FILE, PARTICIPANT_FILE, SURVEYS_FILE
 from protocols.record.sessions import SESSIONS, finished_sessions
@@ -50,11 +50,12 @@ def _build(
     target = folder / table
     partial = partial_beside(target)
     try:
-        with pq.ParquetWriter(partial, schema, **parquet_settings(schema)) as writer:
-            for rows in _row_groups(folder / SESSIONS, part, schema, participants):
-                writer.write_table(rows)
-        with partial.open("rb") as stream:
-            os.fsync(stream.fileno())
+        with naming(target):
+            with pq.ParquetWriter(partial, schema, **parquet_settings(schema)) as writer:
+                for rows in _row_groups(folder / SESSIONS, part, schema, participants):
+                    writer.write_table(rows)
+            with partial.open("rb") as stream:
+                os.fsync(stream.fileno())
         partial.replace(target)
     except BaseException:
         partial.unlink(missing_ok=True)

@@ -26,10 +26,10 @@ class Ended(NamedTuple):
 class Started:
     """A command that is running, in a process group of its own."""
 
-    def __init__(self, *arguments, cwd, **environment):
+    def __init__(self, *arguments, cwd, largest_file=None, **environment):
         path = os.pathsep.join(filter(None, [str(PACKAGES), environment.pop("PYTHONPATH", "")]))
         self.process = subprocess.Popen(  # noqa: S603  # our own command
-            [sys.executable, "-c", "from harness.cli import main; main()", *map(str, arguments)],
+            [sys.executable, "-c", _code(largest_file), *map(str, arguments)],
             cwd=cwd,
             env={**os.environ, "PYTHONPATH": path, **environment},
             stdout=subprocess.PIPE,
@@ -62,6 +62,14 @@ class Started:
     def interrupt(self):
         """Ctrl-C: a terminal sends it to the whole group."""
         os.killpg(self.process.pid, signal.SIGINT)
+
+
+def _code(largest_file):
+    code = "from harness.cli import main; main()"
+    if largest_file is None:
+        return code
+    limit = f"resource.setrlimit(resource.RLIMIT_FSIZE, ({largest_file}, {largest_file}))"
+    return f"import resource; {limit}; {code}"
 
 
 def _parent(process):
