@@ -41,8 +41,9 @@ from lad.hyperparameters import GPHyperparameters
 from lad.plain import PlainStorkGP
 from lad.posterior import Posterior
 from lad.snapshot import restore_state, state_arrays
-from lad.state import State, whole
+from lad.state import State
 from lad.stork_gp import StorkGP
+from lad.triangle import whole
 from lad.update import UpdateKind
 
 SIZES = (100, 200, 400, 800)
@@ -124,9 +125,7 @@ def make_plain(hyper: GPHyperparameters, state: State, room: int) -> PlainStorkG
     """Give the plain form a trained state."""
     del room
     process, n = PlainStorkGP(hyper, n_outputs=2), state.n
-    process.state = Posterior(
-        state.alpha[:, :n].T.copy(), whole(state.C[:n, :n]), whole(state.Q[:n, :n])
-    )
+    process.state = Posterior(state.alpha[:, :n].T.copy(), whole(state.C, n), whole(state.Q, n))
     process.basis = np.ascontiguousarray(state.basis[:, :, :n].transpose(2, 0, 1))
     process.times = state.times[:n].copy()
     return process

@@ -11,6 +11,7 @@ from scipy.linalg.blas import dsymv, dsyr
 from lad.hyperparameters import GPHyperparameters
 from lad.likelihood import gaussian_evidence
 from lad.state import State
+from lad.triangle import whole
 from lad.update import Prediction, Update, UpdateKind
 from lad.window import Window
 
@@ -26,7 +27,7 @@ class BlasStorkGP:
         )
         self.n, self.room = n, room
         self.C, self.Q = (np.zeros((room, room), order="F") for _ in range(2))
-        self.C[:n, :n], self.Q[:n, :n] = np.tril(state.C[:n, :n]), np.tril(state.Q[:n, :n])
+        self.C[:n, :n], self.Q[:n, :n] = np.tril(whole(state.C, n)), np.tril(whole(state.Q, n))
         self.alpha = np.zeros((state.n_outputs, room))
         self.alpha[:, :n] = state.alpha[:, :n]
         self.basis = np.zeros((*state.basis.shape[:2], room))

@@ -4,10 +4,11 @@
 Everything that calls each other is in this one file, because numba's cache notices a change only
 in the file of the function it compiled.
 
-Layout. Of the square arrays ``C`` and ``Q`` the lower triangle counts. ``basis`` is
-(tau, d, room), so that the kernel's inner loop runs over basis vectors; ``alpha`` is (p, room).
-The rows of ``work`` are the vectors of the step in progress: k, then s (at first C k), then
-e = Q k, then the starred columns of a deletion.
+Layout. ``C`` and ``Q`` are lower triangles whose rows begin at ``starts`` (``lad.triangle``, whose
+``row_of`` is the one function from elsewhere). ``basis`` is (tau, d, room), so that the kernel's
+inner loop runs over basis vectors; ``alpha`` is (p, room). The rows of ``work`` are the vectors of
+the step in progress: k, then s (at first C k), then e = Q k, then the starred columns of a
+deletion.
 """
 
 from typing import Any
@@ -18,9 +19,9 @@ from numba.extending import intrinsic
 from numpy.typing import NDArray
 
 from lad.compiled import compiled, compiled_sums
+from lad.triangle import Starts, Vector, row_of
 from lad.update import SMALLEST_SHARE
 
-Vector = NDArray[np.float64]
 Matrix = NDArray[np.float64]
 K_ROW, S_ROW, E_ROW, Q_STAR_ROW, D_ROW = range(5)
 SPARSE, FULL, REPLACED = 1, 2, 3
@@ -115,7 +116,7 @@ def kernel_vector(
 
 
 @compiled_sums
-def symmetric_product(matrix: Matrix, x: Vector, n: int, out: Vector) -> None:
+def symmetric_product(triangle: Vector, starts: Starts, x: Vector, n: int, out: Vector) -> None:
     """Product of the symmetric matrix of a lower triangle and x, into ``out``.
 
     One pass over the triangle, four rows at a time: each row counts once as a row and once as
@@ -124,7 +125,8 @@ def symmetric_product(matrix: Matrix, x: Vector, n: int, out: Vector) -> None:
     out[:n] = 0.0
     last = n - n % 4
     for a in range(0, last, 4):
-        r0, r1, r2, r3 = matrix[a], matrix[a + 1], matrix[a + 2], matrix[a + 3]
+        r0, r1 = row_of(triangle, starts, a), row_of(triangle, starts, a + 1)
+        r2, r3 = row_of(triangle, starts, a + 2), row_of(triangle, starts, a + 3)
         x0, x1, x2, x3 = x[a], x[a + 1], x[a + 2], x[a + 3]
         t0 = t1 = t2 = t3 = 0.0
         for b in range(a):
@@ -139,7 +141,7 @@ def symmetric_product(matrix: Matrix, x: Vector, n: int, out: Vector) -> None:
         out[a + 2] = t2 + r2[a] * x0 + r2[a + 1] * x1 + r2[a + 2] * x2 + r3[a + 2] * x3
         out[a + 3] = t3 + r3[a] * x0 + r3[a + 1] * x1 + r3[a + 2] * x2 + r3[a + 3] * x3
     for a in range(last, n):
-        row, xa, total = matrix[a], x[a], 0.0
+        row, xa, total = row_of(triangle, starts, a), x[a], 0.0
         for b in range(a):
             total += row[b] * x[b]
             out[b] += row[b] * xa
@@ -158,7 +160,8 @@ def inner(a: Vector, b: Vector, n: int) -> float:
 @compiled
 def predict(
     n: int,
-    C: Matrix,
+    C: Vector,
+    starts: Starts,
     alpha: Matrix,
     basis: Vector,
     work: Matrix,
@@ -170,7 +173,7 @@ def predict(
     """Fill k and C k, and ``mean`` by equation (8); return equation (9), NaN with a NaN mean."""
     k, Ck = work[K_ROW], work[S_ROW]
     kernel_vector(basis, window, n, inverse_scale, prior, k, work[E_ROW])
-    symmetric_product(C, k, n, Ck)
+    symmetric_product(C, starts, k, n, Ck)
     latent = prior + inner(k, Ck, n)
     for output in range(alpha.shape[0]):
         mean[output] = inner(alpha[output], k, n)
@@ -180,10 +183,10 @@ def predict(
 
 
 @compiled
-def add_outer(matrix: Matrix, n: int, factor: float, x: Vector) -> None:
+def add_outer(triangle: Vector, starts: Starts, n: int, factor: float, x: Vector) -> None:
     """Add factor x x' to a lower triangle."""
     for a in range(n):
-        row, value = matrix[a], factor * x[a]
+        row, value = row_of(triangle, starts, a), factor * x[a]
         for b in range(a + 1):
             row[b] += value * x[b]
 
@@ -199,7 +202,14 @@ def add_to_alpha(alpha: Matrix, n: int, q: Vector, factor: float, s: Vector) -> 
 
 @compiled
 def sparse_update(
-    n: int, C: Matrix, alpha: Matrix, work: Matrix, gamma: float, q: Vector, r: float
+    n: int,
+    C: Vector,
+    starts: Starts,
+    alpha: Matrix,
+    work: Matrix,
+    gamma: float,
+    q: Vector,
+    r: float,
 ) -> None:
     """Project the sample onto the basis vectors there are."""
     eta = 1.0 / (1.0 + gamma * r)
@@ -207,27 +217,43 @@ def sparse_update(
     for i in range(n):
         s[i] += e[i]
     add_to_alpha(alpha, n, q, eta, s)
-    add_outer(C, n, r * eta, s)
+    add_outer(C, starts, n, r * eta, s)
 
 
 @compiled
 def full_update(
-    n: int, C: Matrix, Q: Matrix, alpha: Matrix, work: Matrix, gamma: float, q: Vector, r: float
+    n: int,
+    C: Vector,
+    Q: Vector,
+    starts: Starts,
+    alpha: Matrix,
+    work: Matrix,
+    gamma: float,
+    q: Vector,
+    r: float,
 ) -> None:
     """Add the sample as basis vector n."""
     s, e = work[S_ROW], work[E_ROW]
     s[n], e[n] = 1.0, -1.0
-    C[n, : n + 1] = 0.0
-    Q[n, : n + 1] = 0.0
+    row_of(C, starts, n)[:] = 0.0
+    row_of(Q, starts, n)[:] = 0.0
     alpha[:, n] = 0.0
     add_to_alpha(alpha, n + 1, q, 1.0, s)
-    add_outer(C, n + 1, r, s)
-    add_outer(Q, n + 1, 1.0 / gamma, e)
+    add_outer(C, starts, n + 1, r, s)
+    add_outer(Q, starts, n + 1, 1.0 / gamma, e)
 
 
 @compiled
 def lowest_score(
-    n: int, C: Matrix, Q: Matrix, alpha: Matrix, work: Matrix, gamma: float, q: Vector, r: float
+    n: int,
+    C: Vector,
+    Q: Vector,
+    starts: Starts,
+    alpha: Matrix,
+    work: Matrix,
+    gamma: float,
+    q: Vector,
+    r: float,
 ) -> int:
     """Find whom to delete after a full update that has not been made yet; n is the new one."""
     s, e, scores = work[S_ROW], work[E_ROW], work[D_ROW]
@@ -239,8 +265,8 @@ def lowest_score(
             scores[i] += value * value
         scores[n] += q[output] * q[output]
     for i in range(n):
-        q_star = Q[i, i] + e[i] * e[i] / gamma
-        c_star = C[i, i] + r * s[i] * s[i]
+        q_star = Q[starts[i] + i] + e[i] * e[i] / gamma
+        c_star = C[starts[i] + i] + r * s[i] * s[i]
         scores[i] /= max(q_star + c_star, SMALLEST_SHARE * q_star)
     scores[n] /= max(1.0 / gamma + r, SMALLEST_SHARE / gamma)
     return int(np.argmin(scores[: n + 1]))
@@ -248,30 +274,32 @@ def lowest_score(
 
 @compiled
 def starred_columns(
-    n: int, slot: int, C: Matrix, Q: Matrix, work: Matrix, gamma: float, r: float
+    n: int, slot: int, C: Vector, Q: Vector, starts: Starts, work: Matrix, gamma: float, r: float
 ) -> None:
     """Fill Q* and D = Q* + C*, the columns of the updated matrices that belong to ``slot``."""
     s, e, Q_star, D = work[S_ROW], work[E_ROW], work[Q_STAR_ROW], work[D_ROW]
     Q_star[: n + 1] = 0.0
     D[: n + 1] = 0.0
     if slot < n:
-        for b in range(slot + 1):
-            Q_star[b], D[b] = Q[slot, b], C[slot, b]
+        Q_star[: slot + 1] = row_of(Q, starts, slot)
+        D[: slot + 1] = row_of(C, starts, slot)
         for a in range(slot + 1, n):
-            Q_star[a], D[a] = Q[a, slot], C[a, slot]
+            Q_star[a], D[a] = Q[starts[a] + slot], C[starts[a] + slot]
     for i in range(n + 1):
         Q_star[i] += e[i] * (e[slot] / gamma)
         D[i] += r * s[i] * s[slot] + Q_star[i]
 
 
 @compiled
-def move_new_into(slot: int, n: int, C: Matrix, Q: Matrix, alpha: Matrix, work: Matrix) -> None:
+def move_new_into(
+    slot: int, n: int, C: Vector, Q: Vector, starts: Starts, alpha: Matrix, work: Matrix
+) -> None:
     """Let the new vector stand where the deleted one stood: its entries were zero so far."""
-    C[slot, : slot + 1] = 0.0
-    Q[slot, : slot + 1] = 0.0
+    row_of(C, starts, slot)[:] = 0.0
+    row_of(Q, starts, slot)[:] = 0.0
     for a in range(slot + 1, n):
-        C[a, slot] = 0.0
-        Q[a, slot] = 0.0
+        C[starts[a] + slot] = 0.0
+        Q[starts[a] + slot] = 0.0
     alpha[:, slot] = 0.0
     for row in range(S_ROW, D_ROW + 1):
         work[row, slot] = work[row, n]
@@ -279,7 +307,15 @@ def move_new_into(slot: int, n: int, C: Matrix, Q: Matrix, alpha: Matrix, work: 
 
 @compiled
 def update_and_delete(
-    n: int, C: Matrix, Q: Matrix, alpha: Matrix, work: Matrix, gamma: float, q: Vector, r: float
+    n: int,
+    C: Vector,
+    Q: Vector,
+    starts: Starts,
+    alpha: Matrix,
+    work: Matrix,
+    gamma: float,
+    q: Vector,
+    r: float,
 ) -> int:
     """Add the sample, delete the lowest score, in one pass; return the slot of the deleted.
 
@@ -289,8 +325,8 @@ def update_and_delete(
     """
     s, e, Q_star, D = work[S_ROW], work[E_ROW], work[Q_STAR_ROW], work[D_ROW]
     s[n], e[n] = 1.0, -1.0
-    slot = lowest_score(n, C, Q, alpha, work, gamma, q, r)
-    starred_columns(n, slot, C, Q, work, gamma, r)
+    slot = lowest_score(n, C, Q, starts, alpha, work, gamma, q, r)
+    starred_columns(n, slot, C, Q, starts, work, gamma, r)
     by_q = 1.0 / Q_star[slot]
     by_d = 1.0 / max(D[slot], SMALLEST_SHARE * Q_star[slot])
     weights = np.empty(alpha.shape[0])
@@ -299,17 +335,18 @@ def update_and_delete(
         if slot < n:
             weights[output] += alpha[output, slot]
     if slot < n:
-        move_new_into(slot, n, C, Q, alpha, work)
+        move_new_into(slot, n, C, Q, starts, alpha, work)
     add_to_alpha(alpha, n, q, 1.0, s)
     add_to_alpha(alpha, n, weights, -by_d, D)
     for a in range(n):
-        row, sa, qa, da = C[a], r * s[a], by_q * Q_star[a], by_d * D[a]
+        row = row_of(C, starts, a)
+        sa, qa, da = r * s[a], by_q * Q_star[a], by_d * D[a]
         for b in range(a + 1):
             row[b] += sa * s[b] + qa * Q_star[b] - da * D[b]
     if slot == n:  # the new one came and went: u u' / gamma = Q* Q*' / q*
         return slot
     for a in range(n):
-        row, ea, qa = Q[a], e[a] / gamma, by_q * Q_star[a]
+        row, ea, qa = row_of(Q, starts, a), e[a] / gamma, by_q * Q_star[a]
         for b in range(a + 1):
             row[b] += ea * e[b] - qa * Q_star[b]
     return slot
@@ -319,8 +356,9 @@ def update_and_delete(
 def learn(
     n: int,
     capacity: int,
-    C: Matrix,
-    Q: Matrix,
+    C: Vector,
+    Q: Vector,
+    starts: Starts,
     alpha: Matrix,
     work: Matrix,
     prior: float,
@@ -336,26 +374,26 @@ def learn(
         What was done (SPARSE, FULL or REPLACED), gamma, and the slot of the new vector; n with
         REPLACED says that the new vector was itself deleted.
     """
-    symmetric_product(Q, work[K_ROW], n, work[E_ROW])
+    symmetric_product(Q, starts, work[K_ROW], n, work[E_ROW])
     gamma = prior - inner(work[K_ROW], work[E_ROW], n)
     if gamma < least_novel:
-        sparse_update(n, C, alpha, work, gamma, q, r)
+        sparse_update(n, C, starts, alpha, work, gamma, q, r)
         return SPARSE, gamma, n
     if n < capacity:
-        full_update(n, C, Q, alpha, work, gamma, q, r)
+        full_update(n, C, Q, starts, alpha, work, gamma, q, r)
         return FULL, gamma, n
-    return REPLACED, gamma, update_and_delete(n, C, Q, alpha, work, gamma, q, r)
+    return REPLACED, gamma, update_and_delete(n, C, Q, starts, alpha, work, gamma, q, r)
 
 
 @compiled
-def likeliest_wrong(n: int, new: int, Q: Matrix, work: Matrix) -> int:
+def likeliest_wrong(n: int, new: int, Q: Vector, starts: Starts, work: Matrix) -> int:
     """Find the basis vector whose column of QK - I the last step has most likely spoilt.
 
     That of the new vector itself is nearly exact.
     """
     k, best, largest = work[K_ROW], 0, -1.0
     for i in range(n):
-        weight = Q[i, i] * k[i]
+        weight = Q[starts[i] + i] * k[i]
         if weight > largest and i != new:
             best, largest = i, weight
     return best

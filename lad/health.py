@@ -14,7 +14,8 @@ import numpy as np
 
 from lad import fused
 from lad.inverse import invert
-from lad.state import State, aligned_zeros
+from lad.state import State
+from lad.triangle import Vector, aligned_zeros, row_of
 from lad.update import SMALLEST_NOVELTY
 
 LARGEST_RESIDUAL = 1e-6
@@ -72,7 +73,7 @@ class KernelMatrix:
     inverse_scale: float
     prior: float
 
-    def column(self, slot: int, n: int, out: fused.Vector, scratch: fused.Vector) -> None:
+    def column(self, slot: int, n: int, out: Vector, scratch: Vector) -> None:
         """Covariance of a basis vector with the first n, into ``out``."""
         window = np.ascontiguousarray(self.state.basis[:, :, slot])
         fused.kernel_vector(
@@ -84,7 +85,7 @@ class KernelMatrix:
         n = self.state.n
         k, product = aligned_zeros(2, self.state.room)
         self.column(slot, n, k, product)
-        fused.symmetric_product(self.state.Q, k, n, product)
+        fused.symmetric_product(self.state.Q, self.state.starts, k, n, product)
         product[slot] -= 1.0
         return float(np.abs(product[:n]).max())
 
@@ -92,18 +93,18 @@ class KernelMatrix:
         """Largest entry of |QK - I|, every column: exact, at the price of n predictions."""
         return max((self.residual_of_column(slot) for slot in range(self.state.n)), default=0.0)
 
-    def fill(self, out: fused.Matrix, extra: float = 0.0) -> None:
+    def fill(self, triangle: Vector, extra: float = 0.0) -> None:
         """Write K + extra I into a lower triangle."""
         k, scratch = aligned_zeros(2, self.state.room)
         for slot in range(self.state.n):
             self.column(slot, slot + 1, k, scratch)
-            out[slot, : slot + 1] = k[: slot + 1]
-            out[slot, slot] += extra
+            k[slot] += extra
+            row_of(triangle, self.state.starts, slot)[:] = k[: slot + 1]
 
     def invert_into_Q(self) -> None:  # noqa: N802  # Q is the mathematics' own name
         """Compute Q anew from the kernel matrix; C and alpha do not depend on its errors."""
         self.fill(self.state.Q)
-        invert(self.state.Q, self.state.n, SMALLEST_NOVELTY)
+        invert(self.state.Q, self.state.starts, self.state.n, SMALLEST_NOVELTY)
 
 
 def watch(health: Health, matrix: KernelMatrix, new: int, novelty: float) -> None:
@@ -126,7 +127,7 @@ def watch(health: Health, matrix: KernelMatrix, new: int, novelty: float) -> Non
     health.risk = 0.0
     health.probes += 1
     state = matrix.state
-    slot = fused.likeliest_wrong(state.n, new, state.Q, state.work)
+    slot = fused.likeliest_wrong(state.n, new, state.Q, state.starts, state.work)
     health.residual = matrix.residual_of_column(slot)
     if health.probes % ROUND_EVERY == 0:
         other = matrix.residual_of_column(health.probes // ROUND_EVERY % state.n)

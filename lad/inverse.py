@@ -9,24 +9,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lad.compiled import compiled, compiled_sums
-
-Matrix = NDArray[np.float64]
+from lad.triangle import Starts, Vector, row_of
 
 
 @compiled
-def swap(A: Matrix, n: int, i: int, j: int) -> None:
+def swap(A: Vector, starts: Starts, n: int, i: int, j: int) -> None:
     """Exchange rows and columns i < j of the symmetric matrix of a lower triangle."""
+    row_i, row_j = row_of(A, starts, i), row_of(A, starts, j)
     for b in range(i):
-        A[i, b], A[j, b] = A[j, b], A[i, b]
-    A[i, i], A[j, j] = A[j, j], A[i, i]
+        row_i[b], row_j[b] = row_j[b], row_i[b]
+    row_i[i], row_j[j] = row_j[j], row_i[i]
     for k in range(i + 1, j):
-        A[k, i], A[j, k] = A[j, k], A[k, i]
+        row_k = row_of(A, starts, k)
+        row_k[i], row_j[k] = row_j[k], row_k[i]
     for k in range(j + 1, n):
-        A[k, i], A[k, j] = A[k, j], A[k, i]
+        row_k = row_of(A, starts, k)
+        row_k[i], row_k[j] = row_k[j], row_k[i]
 
 
 @compiled_sums
-def factorise(K: Matrix, n: int, least_pivot: float) -> NDArray[np.int64]:
+def factorise(K: Vector, starts: Starts, n: int, least_pivot: float) -> NDArray[np.int64]:
     """P K P' = L L': put L where K was, and return which row each step exchanged its own with.
 
     The pivot is the largest residual variance; below ``least_pivot`` it counts as that.
@@ -34,7 +36,7 @@ def factorise(K: Matrix, n: int, least_pivot: float) -> NDArray[np.int64]:
     partners = np.empty(n, dtype=np.int64)
     variance = np.empty(n)
     for i in range(n):
-        variance[i] = K[i, i]
+        variance[i] = K[starts[i] + i]
     for i in range(n):
         best = i
         for k in range(i + 1, n):
@@ -42,15 +44,15 @@ def factorise(K: Matrix, n: int, least_pivot: float) -> NDArray[np.int64]:
                 best = k
         partners[i] = best
         if best > i:
-            swap(K, n, i, best)
+            swap(K, starts, n, i, best)
             variance[best] = variance[i]
-        row = K[i]
+        row = row_of(K, starts, i)
         total = row[i]
         for b in range(i):
             total -= row[b] * row[b]
         row[i] = np.sqrt(max(total, least_pivot))
         for k in range(i + 1, n):
-            other, total = K[k], 0.0
+            other, total = row_of(K, starts, k), 0.0
             for b in range(i):
                 total += other[b] * row[b]
             other[i] = (other[i] - total) / row[i]
@@ -59,14 +61,14 @@ def factorise(K: Matrix, n: int, least_pivot: float) -> NDArray[np.int64]:
 
 
 @compiled
-def invert_factor(L: Matrix, n: int) -> None:
+def invert_factor(L: Vector, starts: Starts, n: int) -> None:
     """Put the inverse of L where L was, row by row from the first."""
     inverse_row = np.empty(n)
     for i in range(n):
-        row = L[i]
+        row = row_of(L, starts, i)
         inverse_row[:i] = 0.0
         for k in range(i):
-            above, weight = L[k], row[k]
+            above, weight = row_of(L, starts, k), row[k]
             for b in range(k + 1):
                 inverse_row[b] += weight * above[b]
         scale = 1.0 / row[i]
@@ -76,34 +78,37 @@ def invert_factor(L: Matrix, n: int) -> None:
 
 
 @compiled
-def square_of_factor(X: Matrix, n: int) -> None:
+def square_of_factor(X: Vector, starts: Starts, n: int) -> None:
     """Put X' X where X was; row a needs only the rows from a on."""
     product_row = np.empty(n)
     for a in range(n):
         product_row[: a + 1] = 0.0
         for i in range(a, n):
-            row, weight = X[i], X[i, a]
+            row = row_of(X, starts, i)
+            weight = row[a]
             for b in range(a + 1):
                 product_row[b] += weight * row[b]
-        X[a, : a + 1] = product_row[: a + 1]
+        row_of(X, starts, a)[:] = product_row[: a + 1]
 
 
 @compiled
-def invert(K: Matrix, n: int, least_pivot: float) -> None:
+def invert(K: Vector, starts: Starts, n: int, least_pivot: float) -> None:
     """Put the inverse of the positive definite K where K was.
 
     Parameters
     ----------
     K
-        Shape (room, room); the lower triangle of the first n rows is read and written.
+        Lower triangle (``lad.triangle``); the first n rows are read and written.
+    starts
+        Where its rows begin.
     n
         Size of the matrix.
     least_pivot
         Positive; keeps a numerically singular K from producing infinities.
     """
-    partners = factorise(K, n, least_pivot)
-    invert_factor(K, n)
-    square_of_factor(K, n)
+    partners = factorise(K, starts, n, least_pivot)
+    invert_factor(K, starts, n)
+    square_of_factor(K, starts, n)
     for i in range(n - 1, -1, -1):
         if partners[i] > i:
-            swap(K, n, i, partners[i])
+            swap(K, starts, n, i, partners[i])

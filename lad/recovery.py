@@ -41,12 +41,12 @@ def rebuild(matrix: KernelMatrix, noise: float) -> None:
     state, n = matrix.state, matrix.state.n
     d = max(noise, LEAST_NOISE_SHARE * matrix.prior)
     matrix.fill(state.C, d)
-    invert(state.C, n, SMALLEST_NOVELTY)
+    invert(state.C, state.starts, n, SMALLEST_NOVELTY)
     product = np.empty(state.room)
     for row in state.alpha:
         if np.isfinite(row[:n]).all():
-            fused.symmetric_product(state.C, row, n, product)
+            fused.symmetric_product(state.C, state.starts, row, n, product)
             row[:n] -= d * product[:n]
         else:
             row[:n] = 0.0
-    np.negative(state.C[:n, :n], out=state.C[:n, :n])
+    np.negative(state.C, out=state.C)

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from lad.errors import ModelFileError
 from lad.state import State
+from lad.triangle import entries
 from lad.window import Window
 
 Arrays = dict[str, NDArray[Any]]
@@ -27,7 +28,7 @@ def restore_window(window: Window, header: dict[str, int], arrays: Arrays) -> No
 def state_arrays(state: State) -> Arrays:
     """Take what was learnt apart: triangles packed row by row, basis vectors as (n, tau, d)."""
     n = state.n
-    lower = np.tril_indices(n)
+    lower = entries(n)
     return {
         "C": state.C[lower],
         "Q": state.Q[lower],
@@ -47,7 +48,7 @@ def restore_state(state: State, arrays: Arrays) -> None:
         state.n = state.room
         state.make_room()
     state.n = n
-    lower = np.tril_indices(n)
+    lower = entries(n)
     state.C[lower] = _expected(arrays, "C", (n * (n + 1) // 2,))
     state.Q[lower] = _expected(arrays, "Q", (n * (n + 1) // 2,))
     state.alpha[:, :n] = _expected(arrays, "alpha", (n, state.n_outputs)).T

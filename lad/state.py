@@ -1,26 +1,14 @@
 """What a process has learnt, in arrays with room to grow."""
 
-import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from lad.triangle import aligned_zeros, padded, row_starts, triangle_zeros
 from lad.window import Window
 
 FIRST_ROOM = 32
-LINE = 8
-"""Float64 numbers in a cache line: rows are multiples of it, so that each begins on a line."""
-
 WORK_ROWS = 5
-
-
-def aligned_zeros(*shape: int) -> NDArray[np.float64]:
-    """Zeros that begin on a cache line."""
-    size = math.prod(shape)
-    buffer = np.zeros(size + LINE)
-    offset = (-buffer.ctypes.data // buffer.itemsize) % LINE
-    return buffer[offset : offset + size].reshape(shape)
 
 
 @dataclass
@@ -35,7 +23,9 @@ class State:
     n
         Number of basis vectors in use; the arrays below have room for more.
     C, Q
-        Shape (room, room); the lower triangle of the first n rows counts.
+        Lower triangles (``lad.triangle``), of which the first n rows count.
+    starts
+        Shape (room,): where the rows of C and Q begin.
     alpha
         Shape (p, room).
     basis
@@ -56,8 +46,9 @@ class State:
         self._allocate(min(FIRST_ROOM, self._most))
 
     def _allocate(self, room: int) -> None:
-        self.C = aligned_zeros(room, room)
-        self.Q = aligned_zeros(room, room)
+        self.C = triangle_zeros(room)
+        self.Q = triangle_zeros(room)
+        self.starts = row_starts(room)
         self.alpha = aligned_zeros(self.n_outputs, room)
         self.basis = aligned_zeros(self.depth, self.n_inputs, room)
         self.times = np.zeros(room, dtype=np.int64)
@@ -66,7 +57,7 @@ class State:
 
     @property
     def _most(self) -> int:
-        return -(-(self.capacity + 1) // LINE) * LINE
+        return padded(self.capacity + 1)
 
     @property
     def room(self) -> int:
@@ -88,8 +79,3 @@ class State:
         self.basis[:, :, slot] = window.scaled
         self.times[slot] = window.time
         self.laps[slot] = window.lap
-
-
-def whole(lower: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Build the symmetric matrix of a lower triangle, shape (n, n)."""
-    return np.tril(lower) + np.tril(lower, -1).T

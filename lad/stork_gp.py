@@ -14,7 +14,8 @@ from lad.model_file import pack, read, rebuilding, unpack, write_whole
 from lad.posterior import Posterior
 from lad.recovery import is_possible, rebuild
 from lad.snapshot import restore_state, restore_window, state_arrays, window_arrays
-from lad.state import State, whole
+from lad.state import State
+from lad.triangle import whole
 from lad.update import SMALLEST_NOVELTY, SMALLEST_VARIANCE, Prediction, Update, UpdateKind
 from lad.window import Window
 
@@ -109,9 +110,7 @@ class StorkGP:
     def posterior(self) -> Posterior:
         """Copy alpha (n, p), C (n, n) and Q (n, n); rows are in the order of ``times``."""
         state, n = self.state, self.state.n
-        return Posterior(
-            state.alpha[:, :n].T.copy(), whole(state.C[:n, :n]), whole(state.Q[:n, :n])
-        )
+        return Posterior(state.alpha[:, :n].T.copy(), whole(state.C, n), whole(state.Q, n))
 
     def observe(self, x: NDArray[np.float64]) -> None:
         """Advance the window by one input, shape (d,)."""
@@ -129,6 +128,7 @@ class StorkGP:
         latent = fused.predict(
             state.n,
             state.C,
+            state.starts,
             state.alpha,
             state.basis,
             state.work,
@@ -191,6 +191,7 @@ class StorkGP:
             state.capacity,
             state.C,
             state.Q,
+            state.starts,
             state.alpha,
             state.work,
             self._prior,

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from lad import fused
 from lad.compiled import compiled
 from lad.kernel import recursive_kernel
-from lad.state import whole
+from lad.triangle import entries, packed, row_starts, triangle_zeros, whole
 
 
 @compiled
@@ -52,28 +52,30 @@ def test_kernel_vector_is_equation_seven(n, d, tau, seed):
 
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 30), st.integers(0, 2**32 - 1))
-def test_symmetric_product_reads_the_lower_triangle_only(n, seed):
-    """Product with the symmetric matrix, whatever stands above the diagonal or beyond n."""
+def test_symmetric_product_reads_n_rows_only(n, seed):
+    """Product with the symmetric matrix, whatever stands in the padding or beyond n rows."""
     rng = np.random.default_rng(seed)
-    matrix = np.full((n + 2, n + 2), np.nan)
-    lower = np.tril_indices(n)
-    matrix[lower] = rng.normal(size=len(lower[0]))
+    triangle = triangle_zeros(n + 2)
+    triangle[:] = np.nan
+    triangle[entries(n)] = rng.normal(size=n * (n + 1) // 2)
     x, out = rng.normal(size=n + 2), np.full(n + 2, np.nan)
-    fused.symmetric_product(matrix, x, n, out)
-    wanted = whole(matrix[:n, :n]) @ x[:n]
+    fused.symmetric_product(triangle, row_starts(n + 2), x, n, out)
+    wanted = whole(triangle, n) @ x[:n]
     assert np.abs(out[:n] - wanted).max(initial=0.0) < 1e-12
     assert np.isnan(out[n:]).all()
 
 
 @settings(max_examples=40, deadline=None)
 @given(st.integers(1, 30), st.integers(0, 2**32 - 1))
-def test_add_outer_writes_the_lower_triangle_only(n, seed):
-    """A rank-one update of a triangle, the rest untouched."""
+def test_add_outer_writes_n_rows_only(n, seed):
+    """A rank-one update of a triangle, padding and further rows untouched."""
     rng = np.random.default_rng(seed)
-    before = rng.normal(size=(n, n))
-    after, x = before.copy(), rng.normal(size=n)
-    fused.add_outer(after, n, -0.3, x)
-    lower = np.tril_indices(n)
-    assert np.abs(after[lower] - (before - 0.3 * np.outer(x, x))[lower]).max() < 1e-14
-    upper = np.triu_indices(n, 1)
-    assert np.array_equal(after[upper], before[upper])
+    matrix, x = rng.normal(size=(n + 2, n + 2)), rng.normal(size=n)
+    triangle = packed(matrix)
+    untouched = np.ones(len(triangle), dtype=bool)
+    untouched[entries(n)] = False
+    before = triangle.copy()
+    fused.add_outer(triangle, row_starts(n + 2), n, -0.3, x)
+    wanted = (matrix[:n, :n] - 0.3 * np.outer(x, x))[np.tril_indices(n)]
+    assert np.abs(triangle[entries(n)] - wanted).max() < 1e-14
+    assert np.array_equal(triangle[untouched], before[untouched])

@@ -37,7 +37,7 @@ def test_what_is_not_finite_is_forgotten():
     process = StorkGP(GPHyperparameters(lengthscales=[1.0], noise_variance=0.05), n_outputs=2)
     learn_stream(process, np.array([[0.0], [2.0]]), np.array([[1.0, 2.0], [3.0, 4.0]]))
     process.state.alpha[0, 0] = np.inf
-    process.state.C[1, 0] = np.nan
+    process.state.C[process.state.starts[1]] = np.nan
     process.observe([1.0])
     process.learn([0.0, 0.0])
     found = process.predict()
