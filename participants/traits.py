@@ -74,6 +74,8 @@ class Traits(_Ranged):
         How fast one notices that the chair turns less than asked.
     limit_push
         How far one then makes up for it: 0 not at all, 1 until the stick's end.
+    limit_pause_s
+        How long one stops to wonder the first time a chair turns a third as fast as asked.
     patience_s
         Time in one lap after which one thinks of giving up.
 
@@ -121,6 +123,9 @@ class Traits(_Ranged):
     ]
     limit_push: Annotated[
         float, Trait(0.0, 1.0, "gain taken over by the person: McRuer & Jex (1967)")
+    ]
+    limit_pause_s: Annotated[
+        float, Trait(0.0, 60.0, "finding out about a changed plant: Young (1969), Ergonomics 12")
     ]
     patience_s: Annotated[
         float, Trait(10.0, 3600.0, "assumption: none of twelve left, Soh & Demiris (2013)")

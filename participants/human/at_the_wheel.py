@@ -8,6 +8,7 @@ from lad.command import STILL, Command
 from participants.human.authority import Authority
 from participants.human.caution import slowed
 from participants.human.corners import Corner
+from participants.human.doubt import Doubt
 from participants.human.hand import Hand
 from participants.human.perception import DelayedView
 from participants.human.practice import Skill
@@ -42,6 +43,8 @@ class AtTheWheel:
         How practised in this lap.
     authority
         What the person knows about the chair; goes on learning.
+    doubt
+        How long the person wonders about it.
     room
         The room.
     rng
@@ -53,12 +56,15 @@ class AtTheWheel:
         traits: Traits,
         skilled: Skill,
         authority: Authority,
+        doubt: Doubt,
+        *,
         room: KnownRoom,
         rng: np.random.Generator,
     ) -> None:
         self._traits = traits
         self._skill = skilled
         self._authority = authority
+        self._doubt = doubt
         self._room = room
         self._view = DelayedView(traits.reaction_delay_s)
         self._hand = Hand(traits.stick_lag_s, traits.motor_noise, rng)
@@ -68,7 +74,7 @@ class AtTheWheel:
         self._stick = STILL
         self._wanted = STILL
         self._held = 1.0
-        self._hesitations: dict[Corner, float] = {}
+        self._hesitated: dict[Corner, float] = {}
 
     def act(self, sight: Sight) -> Command:
         """Move the stick."""
@@ -79,7 +85,7 @@ class AtTheWheel:
         situation = self._situation(view)
         intention = self._getting_free(sight, situation.error)
         if intention is None:
-            intention = self._driving(view, situation)
+            intention = self._driving(view, situation, passed)
         # Somebody else drives: one gives up a part of the deflection, and takes it back later.
         kept = 1.0 - self._traits.compliance * view.helped
         self._held += (1.0 - math.exp(-passed / EASING)) * (kept - self._held)
@@ -97,9 +103,9 @@ class AtTheWheel:
         corner = next((c for c in self._room.corners if c.end > arc), None)
         return Situation(arc, speed, error, corner)
 
-    def _driving(self, view: Sight, situation: Situation) -> Command:
+    def _driving(self, view: Sight, situation: Situation, passed: float) -> Command:
         self._wanted = STILL
-        if self._hesitates(view, situation):
+        if self._hesitates(view, situation, passed):
             return STILL
         intention = intend(self._traits, self._skill, self._authority, self._room.route, situation)
         self._wanted = intention
@@ -108,13 +114,16 @@ class AtTheWheel:
         careful = slowed(field, Command(intention.v, w), self._traits.clearance_m)
         return Command(careful.v, intention.w)
 
-    def _hesitates(self, view: Sight, situation: Situation) -> bool:
-        """Whether one still stands and looks, having just reached a sharp corner."""
+    def _hesitates(self, view: Sight, situation: Situation, passed: float) -> bool:
+        """Whether one stands at a sharp corner and looks, or wonders about the chair."""
         corner = situation.corner
         if corner is None or situation.arc < corner.start - REACHED or view.helped:
             return False
-        until = self._hesitations.setdefault(corner, view.t + self._skill.pause)
-        return view.t < until
+        spent = self._hesitated.get(corner, 0.0)
+        if spent >= self._skill.pause + self._doubt.due(corner):
+            return False
+        self._hesitated[corner] = spent + passed
+        return True
 
     def _getting_free(self, sight: Sight, error: float) -> Command | None:
         """Return the movement one is trying because nothing else worked, if any."""

@@ -6,6 +6,7 @@ from lad.command import Command
 from participants.cohort import typical_traits
 from participants.human.at_the_wheel import AtTheWheel
 from participants.human.authority import Authority
+from participants.human.doubt import Doubt
 from participants.human.patience import Patience
 from participants.human.practice import skill
 from participants.human.room import KnownRoom, known_room
@@ -30,15 +31,17 @@ class HumanDriver:
         self._traits = traits
         self._room = room
         self._authority = Authority(traits.adaptation_per_s)
+        self._doubt = Doubt(traits.limit_pause_s, traits.practice_exponent, self._authority)
         self.start_lap(0, np.random.default_rng(0))
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:
         """Begin a lap; what was learnt about the chair stays."""
         self._authority.start_lap()
+        self._doubt.start_lap()
         skilled = skill(self._traits, lap)
         (for_patience,) = rng.spawn(1)
         self._patience = Patience(self._traits.patience_s, for_patience)
-        self._now = AtTheWheel(self._traits, skilled, self._authority, self._room, rng)
+        self._now = AtTheWheel(self._traits, skilled, self._authority, self._doubt, self._room, rng)
 
     def act(self, sight: Sight) -> Command:
         """Move the stick, or leave."""
