@@ -41,7 +41,9 @@ class HumanDriver:
         skilled = skill(self._traits, lap)
         (for_patience,) = rng.spawn(1)
         self._patience = Patience(self._traits.patience_s, for_patience)
-        self._now = AtTheWheel(self._traits, skilled, self._authority, self._doubt, self._room, rng)
+        self._now = AtTheWheel(
+            self._traits, skilled, self._authority, self._doubt, room=self._room, rng=rng
+        )
 
     def act(self, sight: Sight) -> Command:
         """Move the stick, or leave."""
