@@ -43,4 +43,5 @@ class Doubt:
         if corner not in self._here:
             self._met += 1
             self._here[corner] = self._met
-        return self._pause * min(share, 1.0) * self._here[corner] ** -self._exponent
+        fades: float = self._here[corner] ** -self._exponent
+        return self._pause * min(share, 1.0) * fades

@@ -60,7 +60,7 @@ def amplitude(severity: float) -> float:
     >>> [round(amplitude(severity), 3) for severity in (0.0, 0.25, 0.5, 0.75, 1.0)]
     [0.0, 0.014, 0.06, 0.204, 0.66]
     """
-    centimetres = 10.0 ** (LOG_INTERCEPT + LOG_SLOPE * WORST * severity) - 10.0**LOG_INTERCEPT
+    centimetres: float = 10.0 ** (LOG_INTERCEPT + LOG_SLOPE * WORST * severity) - 10.0**LOG_INTERCEPT
     return centimetres / THROW
 
 
@@ -94,6 +94,8 @@ class Tremor:
             size * math.sin(line) * MAX_SPEED, size * math.cos(line) * MAX_TURN_RATE
         )
         self._frequency = drawn if frequency is None else frequency
+        self._t: float | None = None
+        self._meant = STILL
         self._begin()
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:
@@ -117,7 +119,7 @@ class Tremor:
         (self._lap_rng,) = self._rng.spawn(1)
         self._phase = float(self._lap_rng.uniform(0.0, math.tau))
         self._off = WANDERING * float(self._lap_rng.normal())
-        self._t: float | None = None
+        self._t = None
         self._meant = STILL
 
     def _mean_swing(self, passed: float) -> float:
