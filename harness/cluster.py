@@ -73,7 +73,7 @@ class Cluster:
 
     def _answer(self, future: "Future[Any]") -> Any:
         if future.cancelled():
-            raise ConnectionError("the Dask scheduler was lost; the same command goes on later")
+            raise ConnectionError("the Dask scheduler was lost; the same command again goes on")
         error = future.exception()
         if error is not None:  # of the cluster: a task's own exceptions are part of its answer
             return Died(f"{type(error).__name__}: {error}")
@@ -95,7 +95,8 @@ def cluster(scheduler: str) -> Iterator[Cluster]:
         raise InputError(
             "--scheduler: needs Dask; install it with pip install 'lad-study[cluster]'"
         ) from None
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters is raised
+    for name in ("distributed", "distributed.client", "tornado.application"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)  # what matters is raised
     try:
         client = Client(scheduler, timeout=PATIENCE_S)
     except (OSError, ValueError) as error:

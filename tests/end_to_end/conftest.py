@@ -79,6 +79,12 @@ def _parent(process):
         return None
 
 
+@pytest.fixture(scope="session")
+def packages():
+    """Return the folder that holds the packages under test."""
+    return PACKAGES
+
+
 @pytest.fixture
 def start(tmp_path):
     """Return the function that starts ``lad-study`` with these arguments."""
@@ -127,14 +133,19 @@ def record():
 
 
 @pytest.fixture(scope="session")
-def undisturbed(tmp_path_factory, record):
-    """Return the record of the quick study as a run leaves it that nothing happens to."""
+def undisturbed_study(tmp_path_factory):
+    """Return the directory of a quick study that nothing has happened to; not to be touched."""
     folder = tmp_path_factory.mktemp("undisturbed")
-    ended = Started(
-        "run", QUICK, "--no-report", "--out", folder / "study", "--jobs", 2, cwd=folder
-    ).ended()
+    run = Started("run", QUICK, "--no-report", "--out", "study", "--jobs", 2, cwd=folder)
+    ended = run.ended()
     assert ended.code == 0, ended.err
-    return record(folder / "study")
+    return folder / "study"
+
+
+@pytest.fixture(scope="session")
+def undisturbed(undisturbed_study, record):
+    """Return its record."""
+    return record(undisturbed_study)
 
 
 @pytest.fixture(scope="session")

@@ -1,0 +1,103 @@
+"""A study on a real Dask cluster: what happens to workers changes no byte."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from protocols.record.check import check_study
+
+pytest.importorskip("distributed")
+
+
+@pytest.fixture
+def dask(tmp_path, packages):
+    """Return the function that starts one of Dask's commands, with what it says in a file."""
+    started = []
+
+    def begin(command, *arguments):
+        log = tmp_path / f"{len(started)}.log"
+        with log.open("w") as out:
+            process = subprocess.Popen(  # noqa: S603  # Dask's own command
+                [sys.executable, "-m", f"distributed.cli.dask_{command}", *map(str, arguments)],
+                cwd=tmp_path,
+                env={**os.environ, "PYTHONPATH": str(packages)},
+                stdout=out,
+                stderr=out,
+                start_new_session=True,
+            )
+        started.append(process)
+        return process, log
+
+    yield begin
+    for process in started:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+
+
+@pytest.fixture
+def scheduler(dask, tmp_path, wait_until):
+    """Return a scheduler's process and address."""
+    file = tmp_path / "scheduler.json"
+    process, _ = dask(
+        "scheduler", "--host", "127.0.0.1", "--port", 0, "--no-dashboard",
+        "--scheduler-file", file,
+    )  # fmt: skip
+    wait_until(file.exists)
+    return process, json.loads(file.read_text())["address"]
+
+
+@pytest.fixture
+def add_worker(dask, scheduler, wait_until):
+    """Return the function that adds a worker process to the cluster."""
+
+    def add(threads):
+        process, log = dask(
+            "worker", scheduler[1], "--no-nanny", "--no-dashboard", "--nthreads", threads,
+        )  # fmt: skip
+        wait_until(lambda: "Registered to" in log.read_text())
+        return process
+
+    return add
+
+
+def test_a_study_survives_the_death_of_a_worker(
+    scheduler, add_worker, start_quick, wait_until, finished, record, undisturbed, tmp_path
+):
+    """Every participant is there once, with the bytes of a local run.
+
+    The other worker has two threads: its sessions must not share a world.
+    """
+    out, doomed = tmp_path / "study", add_worker(1)
+    add_worker(2)
+    run = start_quick(out, "--scheduler", scheduler[1])
+    wait_until(lambda: finished(out) >= 1)
+    assert finished(out) < len({n.split("/")[1] for n in undisturbed if "sessions/" in n})
+    doomed.kill()
+    ended = run.ended()
+    assert ended.code == 0, ended.err
+    assert "Traceback" not in ended.err
+    assert record(out) == undisturbed
+    assert check_study(out) == ()
+
+
+def test_a_lost_scheduler_ends_a_run_in_one_line(
+    scheduler, add_worker, start_quick, wait_until, finished, run_quick, record, undisturbed,
+    tmp_path,
+):  # fmt: skip
+    """What was finished is kept, and the same study goes on without the cluster."""
+    out = tmp_path / "study"
+    add_worker(1)
+    run = start_quick(out, "--scheduler", scheduler[1])
+    wait_until(lambda: finished(out) >= 1)
+    scheduler[0].kill()
+    ended = run.ended()
+    assert ended.code == 1
+    said = [line for line in ended.err.splitlines() if not line.startswith("Sessions ")]
+    assert said == ["lad-study: the Dask scheduler was lost; the same command again goes on"]
+    assert run_quick(out).code == 0
+    assert record(out) == undisturbed
