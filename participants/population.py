@@ -142,8 +142,8 @@ PEOPLE = Population(
         "clearance_m": Marginal(0.15, 0.4),
         "lane_offset_m": Marginal(0.0, 0.4),
         "inexperience": Marginal(0.35, 1.3),
-        "corner_share": Marginal(0.5, 0.8),
-        "practice_exponent": Marginal(0.4, 0.5),
+        "corner_share": Marginal(0.6, 0.8),
+        "practice_exponent": Marginal(0.5, 0.5),
         "compliance": Marginal(0.25, 0.8),
         "adaptation_per_s": Marginal(0.8, 0.5),
         "limit_push": Marginal(0.75, 1.0),
@@ -165,13 +165,18 @@ PEOPLE = Population(
         ("corner_speed_m_s", "inexperience"): -0.3,
         ("clearance_m", "inexperience"): 0.3,
         ("limit_push", "inexperience"): -0.5,
-        ("limit_pause_s", "inexperience"): 0.5,
+        ("limit_pause_s", "inexperience"): 0.7,
+        ("limit_pause_s", "limit_push"): -0.4,
+        ("limit_pause_s", "corner_deflection"): -0.3,
+        ("limit_push", "corner_deflection"): 0.3,
         ("corner_deflection", "inexperience"): -0.4,
         ("compliance", "liking"): 0.3,
     },
 )
 """The people a synthetic cohort is drawn from.
 
-Medians of reaction, lag, gain, preview and noise follow the sources named with each trait; all
-other numbers, and the correlations' sizes, are assumptions, their signs being plausible.
+Medians and spreads of inexperience and of the pause when limited are calibrated
+(``bench/calibrate_cohort.py``); those of the practice exponent and of the share that sits in
+corners are priors. Where every other number comes from, and which are assumptions, is in
+docs/cohort.md.
 """

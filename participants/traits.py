@@ -113,7 +113,9 @@ class Traits(_Ranged):
     inexperience: Annotated[
         float, Trait(0.0, 10.0, "spread of first laps: Soh & Demiris (2013), section V.B")
     ]
-    corner_share: Annotated[float, Trait(0.0, 1.0, "free: no published figure determines it")]
+    corner_share: Annotated[
+        float, Trait(0.0, 1.0, "novices lose time in tight places: Sorrento et al. (2011), JNER 8")
+    ]
     practice_exponent: Annotated[
         float, Trait(0.0, 1.5, "power law of practice: Newell & Rosenbloom (1981)")
     ]

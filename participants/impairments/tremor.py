@@ -60,8 +60,8 @@ def amplitude(severity: float) -> float:
     >>> [round(amplitude(severity), 3) for severity in (0.0, 0.25, 0.5, 0.75, 1.0)]
     [0.0, 0.014, 0.06, 0.204, 0.66]
     """
-    centimetres: float = 10.0 ** (LOG_INTERCEPT + LOG_SLOPE * WORST * severity) - 10.0**LOG_INTERCEPT
-    return centimetres / THROW
+    at_zero: float = 10.0**LOG_INTERCEPT
+    return at_zero * (10.0 ** (LOG_SLOPE * WORST * severity) - 1.0) / THROW
 
 
 class Tremor:
