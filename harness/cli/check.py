@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from harness.cli.console import say
+from harness.cli.console import progress_line, say
 
 
 def check(
@@ -19,7 +19,8 @@ def check(
     """
     from protocols.record.check import check_study
 
-    faults = check_study(study)
+    with progress_line() as tell:
+        faults = check_study(study, tell)
     for fault in faults:
         say(fault)
     if not faults:

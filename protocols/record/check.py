@@ -1,6 +1,6 @@
 """Verify a study directory: what is wrong in it, and what to do about it."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pyarrow as pa
@@ -9,22 +9,35 @@ from protocols.errors import InputError
 from protocols.record.codebook import CODEBOOK_FILE, codebook_json
 from protocols.record.header import STUDY_FILE, StudyHeader, read_header
 from protocols.record.identity import study_digest
+from protocols.record.logs import failures
 from protocols.record.merge import STUDY_TABLES, session_rows
-from protocols.record.parquet import read_parquet
+from protocols.record.parquet import parquet_shape, read_parquet
+from protocols.record.reader import open_study
 from protocols.record.rows import participant_id
-from protocols.record.session import LAPS_FILE, PARTICIPANT_FILE, SURVEYS_FILE, steps_file
-from protocols.record.sessions import SESSIONS, session_faults, session_folders
+from protocols.record.session import (
+    LAPS_FILE,
+    MODEL_FILE,
+    PARTICIPANT_FILE,
+    SURVEYS_FILE,
+    steps_file,
+)
+from protocols.record.sessions import SESSIONS, read_manifest, session_faults, session_folders
 from protocols.record.steps import STEP_SCHEMA
 from protocols.record.tables import LAP_SCHEMA, PARTICIPANT_SCHEMA, SURVEY_SCHEMA
+from protocols.resolved import ResolvedStudy
 
 _AGAIN = "the same `lad-study run` again makes it anew"
 
+Tell = Callable[[str], None]
+"""Called with what is being looked at now."""
 
-def check_study(folder: Path) -> tuple[str, ...]:
+
+def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
     """Return what is wrong with a study directory, one line each; empty when all is well.
 
     Every session's files are compared with their checksums and with one another, the tables with
-    the sessions, the codebook with the schema, and the sessions with the plan.
+    the sessions, the codebook with the schema, and the sessions with the plan. Of a study that was
+    recorded elsewhere, which has no checksums, every table is read.
 
     Raises
     ------
@@ -32,11 +45,15 @@ def check_study(folder: Path) -> tuple[str, ...]:
         When the folder is no study directory at all.
     """
     header = read_header(folder)
+    if header.seed is None:
+        return tuple(_foreign_faults(folder))
     sessions = session_folders(folder)
-    faults = [*_header_faults(folder, header), *_missing_sessions(header, sessions)]
+    faults = [*_header_faults(folder, header), *_missing_sessions(folder, header, sessions)]
     sound = []
-    for session in sessions:
-        found = list(_session_faults(session))
+    for number, session in enumerate(sessions, start=1):
+        if tell is not None:
+            tell(f"Session {number} of {len(sessions)}")
+        found = list(_session_faults(session, header.study))
         faults += [f"{fault}; remove {session}, then {_AGAIN}" for fault in found]
         if not found:
             sound.append(session.name)
@@ -44,6 +61,20 @@ def check_study(folder: Path) -> tuple[str, ...]:
     if len(sound) == len(sessions):
         faults += _table_faults(folder, sound)
     return tuple(faults)
+
+
+def _foreign_faults(folder: Path) -> Iterator[str]:
+    """Read everything there is of a study that was recorded elsewhere."""
+    try:
+        study = open_study(folder)
+        laps = study.laps
+        for participant, lap in zip(
+            laps["participant"].to_pylist(), laps["lap"].to_pylist(), strict=True
+        ):
+            if study.has_steps(participant, lap):
+                study.steps(participant, lap)
+    except InputError as error:
+        yield str(error)
 
 
 def _header_faults(folder: Path, header: StudyHeader) -> Iterator[str]:
@@ -57,30 +88,41 @@ def _header_faults(folder: Path, header: StudyHeader) -> Iterator[str]:
         yield f"{path}: missing, or not this version's; {_AGAIN}"
 
 
-def _missing_sessions(header: StudyHeader, sessions: tuple[Path, ...]) -> Iterator[str]:
+def _missing_sessions(
+    folder: Path, header: StudyHeader, sessions: tuple[Path, ...]
+) -> Iterator[str]:
     there = {session.name for session in sessions}
     planned = map(participant_id, range(1, header.protocol.cohort.participants + 1))
-    missing = [name for name in planned if name not in there]
-    if header.seed is not None and missing:
+    absent = [name for name in planned if name not in there]
+    gave_up = set(failures(folder))
+    failed = [name for name in absent if name in gave_up]
+    missing = [name for name in absent if name not in gave_up]
+    of = f"of {header.protocol.cohort.participants} sessions"
+    if missing:
         yield (
-            f"{len(missing)} of {header.protocol.cohort.participants} sessions are missing "
-            f"({missing[0]} first); the same `lad-study run` again adds them"
+            f"{len(missing)} {of} are missing ({missing[0]} first); "
+            "the same `lad-study run` again adds them"
+        )
+    if failed:
+        yield (
+            f"{len(failed)} {of} failed ({failed[0]} first; see {folder / 'logs'}); "
+            "the same `lad-study run` with --retry-failed runs them again"
         )
 
 
-def _session_faults(session: Path) -> Iterator[str]:
+def _session_faults(session: Path, study: ResolvedStudy) -> Iterator[str]:
     """Check the files of one session: bytes first, then what they say."""
     damaged = list(session_faults(session))
     yield from damaged
     if damaged:
         return
     try:
-        yield from _content_faults(session)
+        yield from _content_faults(session, study)
     except InputError as error:
         yield str(error)
 
 
-def _content_faults(session: Path) -> Iterator[str]:
+def _content_faults(session: Path, study: ResolvedStudy) -> Iterator[str]:
     participant = session_rows(session / PARTICIPANT_FILE, PARTICIPANT_SCHEMA)
     laps = session_rows(session / LAPS_FILE, LAP_SCHEMA)
     surveys = session_rows(session / SURVEYS_FILE, SURVEY_SCHEMA)
@@ -91,11 +133,46 @@ def _content_faults(session: Path) -> Iterator[str]:
     driven = participant["laps_driven"].to_pylist()
     if driven != [laps.num_rows]:
         yield f"{session / LAPS_FILE}: {laps.num_rows} laps; the participant's row says {driven}"
-    for lap, steps in zip(laps["lap"].to_pylist(), laps["steps"].to_pylist(), strict=True):
+    yield from _lap_faults(session, laps)
+    yield from _survey_faults(session, laps, surveys, study)
+
+
+def _lap_faults(session: Path, laps: pa.Table) -> Iterator[str]:
+    """Compare the laps' rows with the files there are, and with their numbers of steps."""
+    numbers = laps["lap"].to_pylist()
+    wanted = {PARTICIPANT_FILE, LAPS_FILE, SURVEYS_FILE, *map(steps_file, numbers)}
+    manifest = read_manifest(session)
+    listed = set(manifest.files) - {MODEL_FILE} if manifest else set()
+    for name in sorted(wanted ^ listed):
+        yield f"{session / name}: {'missing' if name in wanted else 'of a lap without a row'}"
+    for lap, steps in zip(numbers, laps["steps"].to_pylist(), strict=True):
         path = session / steps_file(lap)
-        recorded = session_rows(path, STEP_SCHEMA).num_rows
+        if path.name not in listed:
+            continue
+        schema, recorded = parquet_shape(path)
+        if not schema.equals(STEP_SCHEMA):
+            yield f"{path}: its columns are not those of this version's record"
         if recorded != steps:
             yield f"{path}: {recorded} steps; the lap's row says {steps}"
+
+
+def _survey_faults(
+    session: Path, laps: pa.Table, surveys: pa.Table, study: ResolvedStudy
+) -> Iterator[str]:
+    """Compare the answers' rows with the questions the protocol asks after each lap."""
+    there = list(zip(*(surveys[c].to_pylist() for c in ("lap", "instrument", "item")), strict=True))
+    planned = len(study.protocol.laps)
+    wanted = [
+        (row["lap"], instrument.name, item.id)
+        for row in laps.select(["lap", "end_reason"]).to_pylist()
+        if row["end_reason"] != "withdrew" and row["lap"] < planned
+        for instrument, item in study.questions(row["lap"])
+    ]
+    if there != wanted:
+        yield (
+            f"{session / SURVEYS_FILE}: {len(there)} answers; the protocol asks {len(wanted)} "
+            "questions in the laps that were driven"
+        )
 
 
 def _table_faults(folder: Path, participants: list[str]) -> Iterator[str]:

@@ -1,7 +1,8 @@
 """Parquet the way this project writes and reads it."""
 
 import io
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +39,18 @@ def parquet_bytes(table: pa.Table) -> bytes:
     return sink.getvalue()
 
 
+def parquet_shape(path: Path) -> tuple[pa.Schema, int]:
+    """Return a Parquet file's columns and its number of rows, without reading them.
+
+    Raises
+    ------
+    InputError
+        When the file is missing or damaged; names it.
+    """
+    with _readable(path) as file:
+        return file.schema_arrow, file.metadata.num_rows
+
+
 def read_parquet(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
     """Return a Parquet file's table.
 
@@ -53,11 +66,18 @@ def read_parquet(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
     InputError
         When the file is missing or damaged; names it.
     """
+    with _readable(path) as file:
+        there = file.schema_arrow.names
+        wanted = None if columns is None else [c for c in columns if c in there]
+        return file.read(columns=wanted)
+
+
+@contextmanager
+def _readable(path: Path) -> Iterator[pq.ParquetFile]:
+    """Open a Parquet file; whatever is wrong with it, while it is open, is the file's fault."""
     try:
         with pq.ParquetFile(path, page_checksum_verification=True) as file:
-            there = file.schema_arrow.names
-            wanted = None if columns is None else [c for c in columns if c in there]
-            return file.read(columns=wanted)
+            yield file
     except FileNotFoundError:
         raise InputError(f"{path}: no such file") from None
     except (pa.ArrowException, OSError, ValueError, MemoryError) as error:

@@ -152,7 +152,8 @@ def open_study(folder: Path | str) -> Study:
     Raises
     ------
     InputError
-        When it is none, has no session yet, or one of its tables cannot be used.
+        When it is none, has no session yet, one of its tables cannot be used, or they lack
+        sessions that a run which was stopped has finished.
 
     Examples
     --------
@@ -168,4 +169,18 @@ def open_study(folder: Path | str) -> Study:
     if not len(study.participants) or not len(study.laps):
         raise InputError(f"{folder}: no session in it yet; run the study first")
     len(study.surveys)
+    _refuse_stale_tables(study)
     return study
+
+
+def _refuse_stale_tables(study: Study) -> None:
+    """Refuse tables that a stopped run has not come to build: they would hide its sessions."""
+    if study.seed is None:  # recorded elsewhere: who is in the tables is its makers' choice
+        return
+    known = set(study.participants["participant"].to_pylist())
+    new = [name for name in study.sessions() if name not in known]
+    if new:
+        raise InputError(
+            f"{study.folder / PARTICIPANTS_TABLE}: lacks {len(new)} finished sessions ({new[0]} "
+            "first): a run is not over, or was stopped; the same `lad-study run` again ends it"
+        )

@@ -12,6 +12,12 @@ def test_the_same_seed_gives_the_same_bytes(run_quick, record, undisturbed, tmp_
     assert record(tmp_path / "again") == undisturbed
 
 
+def test_a_finished_study_is_whole(undisturbed_study, start):
+    """`lad-study check` finds nothing wrong with it."""
+    ended = start("check", undisturbed_study).ended()
+    assert (ended.code, ended.out) == (0, f"{undisturbed_study}: whole\n")
+
+
 def test_another_seed_gives_other_bytes(run_quick, record, undisturbed, tmp_path):
     """Every table and every lap differs, and so does every model that could have learnt."""
     ended = run_quick(tmp_path / "other", "--seed", 1, "--participants", 2)

@@ -4,9 +4,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pyarrow as pa
 import pytest
 
+from protocols.dump import plain_yaml
 from protocols.load import resolve_study
 from protocols.record.recorder import StepRecorder
 from protocols.record.rows import LapRow, ParticipantRow, SurveyRow, participant_id
@@ -46,7 +48,7 @@ def a_session(number: int, laps: int = 2) -> SessionRecord:
     answers = tuple(
         SurveyRow(participant=name, lap=1, condition="limited", instrument="driving-assistance",
                   item=item, response=response)
-        for item, response in (("Q1", 4), ("Q2", None))
+        for item, response in (("Q1", 4), ("Q2", None), ("Q3", 5), ("Q4", 1))
     )  # fmt: skip
     person = ParticipantRow(
         participant=name, kind="synthetic", driver="human", traits={"speed_m_s": 0.5, "age": 1.0},
@@ -87,4 +89,28 @@ def folder(tmp_path: Path, plan: ResolvedStudy, session_files: dict[str, dict[st
     for name, files in session_files.items():
         write_session(out, name, files)
     build_tables(out)
+    return out
+
+
+@pytest.fixture
+def ward(tmp_path: Path, plan: ResolvedStudy) -> Path:
+    """Return a study that was recorded elsewhere: a short head, and the tables it must have."""
+    out = tmp_path / "ward"
+    (out / "sessions" / "Ann").mkdir(parents=True)
+    head = {
+        "protocol": {
+            "name": "ward", "title": "On a ward", "conditions": {"with": {}, "without": {}},
+            "laps": [{"condition": "without"}, {"condition": "with"}],
+        },
+        "course": plan.course.model_dump(mode="json", by_alias=True),
+    }  # fmt: skip
+    (out / "study.yaml").write_text(plain_yaml(head))
+    pd.DataFrame({"participant": ["Ann", "Bea"]}).to_parquet(out / "participants.parquet")
+    laps = pd.DataFrame(
+        {"participant": ["Ann", "Ann", "Bea"], "lap": [0, 1, 0], "completed": True,
+         "condition": ["without", "with", "without"], "lap_time_s": [50.0, 45.0, 60.0]}
+    )  # fmt: skip
+    laps.to_parquet(out / "laps.parquet")
+    steps = pd.DataFrame({"t_s": [0.0, 0.1], "x_m": [1.0, 1.1], "y_m": [2.0, 2.0]})
+    steps.to_parquet(out / "sessions" / "Ann" / "steps-1.parquet")
     return out

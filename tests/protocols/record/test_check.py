@@ -8,8 +8,9 @@ import pytest
 
 from protocols.load import resolve_study
 from protocols.record.check import check_study
+from protocols.record.manifest import MANIFEST_FILE, manifest_of
 from protocols.record.session import SessionRecord, encode
-from protocols.record.store import build_tables, open_folder, write_session
+from protocols.record.store import build_tables, open_folder, write_failure, write_session
 
 
 def test_a_finished_study_has_no_faults(folder: Path):
@@ -35,6 +36,43 @@ def test_missing_sessions_are_counted(folder: Path):
     open_folder(folder, resolve_study("four-lap", participants=10), 0)
     (fault,) = check_study(folder)
     assert fault.startswith("7 of 10 sessions are missing (P0004 first)")
+
+
+def test_failed_sessions_are_told_from_missing_ones(folder: Path):
+    """They have another remedy."""
+    open_folder(folder, resolve_study("four-lap", participants=6), 0)
+    write_failure(folder, "P0005", "Traceback")
+    missing, failed = check_study(folder)
+    assert missing.startswith("2 of 6 sessions are missing (P0004 first)")
+    assert failed.startswith("1 of 6 sessions failed (P0005 first")
+    assert "--retry-failed" in failed
+
+
+def test_a_steps_file_of_no_lap_is_told(tmp_path: Path, make_session: Callable[..., SessionRecord]):
+    """A session holds a file for each of its laps, and no other, whatever its manifest says."""
+    files = {n: c for n, c in encode(make_session(1)).items() if n != MANIFEST_FILE}
+    files["steps-7.parquet"] = files.pop("steps-1.parquet")
+    open_folder(tmp_path / "s", resolve_study("four-lap", participants=1), 0)
+    write_session(tmp_path / "s", "P0001", files | {MANIFEST_FILE: manifest_of(files)})
+    build_tables(tmp_path / "s")
+    missing, stray = check_study(tmp_path / "s")
+    assert "steps-1.parquet: missing" in missing
+    assert "steps-7.parquet: of a lap without a row" in stray
+
+
+def test_a_study_recorded_elsewhere_is_read_whole(ward: Path):
+    """It has no checksums: that every table can be read is what can be said."""
+    assert check_study(ward) == ()
+    (ward / "sessions" / "Ann" / "steps-1.parquet").write_bytes(b"PAR1")
+    (fault,) = check_study(ward)
+    assert "steps-1.parquet: not a readable Parquet file" in fault
+
+
+def test_what_is_being_looked_at_is_told(folder: Path):
+    """Thousands of sessions take a while."""
+    told: list[str] = []
+    check_study(folder, told.append)
+    assert told == [f"Session {n} of 3" for n in (1, 2, 3)]
 
 
 def test_tables_that_do_not_hold_the_sessions_are_named(
@@ -69,6 +107,8 @@ def test_rows_that_contradict_one_another_are_told(
             session, participant=replace(session.participant, laps_driven=3)),
         "rows of P0002 in the session of P0001": replace(
             session, participant=replace(session.participant, participant="P0002")),
+        "survey_rows.parquet: 3 answers; the protocol asks 4 questions": replace(
+            session, answers=session.answers[1:]),
     }  # fmt: skip
     for n, (message, bad) in enumerate(cases.items()):
         out = tmp_path / str(n)

@@ -19,13 +19,14 @@ def _tables(folder: Path) -> dict[str, bytes]:
 
 
 def test_tables_hold_every_row_in_the_order_of_participants(folder: Path):
-    """Three participants, two laps and two answers each, whatever order they were finished in."""
+    """Three participants, two laps and four answers each, whatever order they were finished in."""
     assert pq.read_table(folder / "participants.parquet")["participant"].to_pylist() == [
         "P0001", "P0002", "P0003"]  # fmt: skip
     laps = pq.read_table(folder / "laps.parquet")
     assert list(zip(laps["participant"].to_pylist(), laps["lap"].to_pylist(), strict=True)) == [
         (p, lap) for p in ("P0001", "P0002", "P0003") for lap in (0, 1)]  # fmt: skip
-    assert pq.read_table(folder / "surveys.parquet")["response"].to_pylist() == [4, None] * 3
+    assert pq.read_table(folder / "surveys.parquet")["response"].to_pylist() == [
+        4, None, 5, 1] * 3  # fmt: skip
 
 
 def test_tables_do_not_depend_on_the_order_of_finishing(

@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from protocols.errors import InputError
-from protocols.record.parquet import parquet_bytes, read_parquet
+from protocols.record.parquet import parquet_bytes, parquet_shape, read_parquet
 
 _TABLE = pa.table({"a": [1, 2, 3], "b": ["x", None, "z"], "c": [0.1, 0.2, 0.3]})
 
@@ -19,6 +19,14 @@ def test_columns_are_read_in_the_order_asked(tmp_path: Path):
     path.write_bytes(parquet_bytes(_TABLE))
     assert read_parquet(path).equals(_TABLE)
     assert read_parquet(path, ["c", "a", "nowhere"]).column_names == ["c", "a"]
+
+
+def test_the_shape_of_a_file_is_that_of_its_table(tmp_path: Path):
+    """Columns, types and number of rows."""
+    path = tmp_path / "t.parquet"
+    path.write_bytes(parquet_bytes(_TABLE))
+    schema, rows = parquet_shape(path)
+    assert (schema, rows) == (_TABLE.schema, 3)
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])

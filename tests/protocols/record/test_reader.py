@@ -1,15 +1,15 @@
 """Reading a study directory."""
 
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
-import pandas as pd
 import pytest
 
-from protocols.dump import plain_yaml
 from protocols.errors import InputError
 from protocols.record.reader import open_study
-from protocols.record.store import open_folder, write_failure
+from protocols.record.session import SessionRecord, encode
+from protocols.record.store import build_tables, open_folder, write_failure, write_session
 from protocols.resolved import ResolvedStudy
 
 
@@ -27,7 +27,7 @@ def test_a_study_is_read_back(folder: Path, plan: ResolvedStudy):
     assert study.seed == 0
     assert study.sessions() == ("P0001", "P0002", "P0003")
     assert study.participants.num_rows == 3
-    assert study.laps.num_rows == study.surveys.num_rows == 6
+    assert (study.laps.num_rows, study.surveys.num_rows) == (6, 12)
     assert study.steps("P0002", 1)["step"].to_pylist() == [0, 1, 2, 3, 4]
     assert study.model_bytes("P0001") == b"learnt"
     assert len(study.versions()) == 1
@@ -112,26 +112,20 @@ def test_failed_sessions_are_those_still_missing(folder: Path):
     assert open_study(folder).failed() == ("P0007",)
 
 
-def test_a_study_recorded_elsewhere_is_read(tmp_path: Path, plan: ResolvedStudy):
+def test_tables_that_lack_finished_sessions_are_refused(
+    folder: Path, make_session: Callable[..., SessionRecord]
+):
+    """A report of tables that a stopped run left behind would hide what it had finished."""
+    write_session(folder, "P0004", encode(make_session(4)))
+    with pytest.raises(InputError, match=r"lacks 1 finished sessions \(P0004 first\).*same `lad-"):
+        open_study(folder)
+    build_tables(folder)
+    assert open_study(folder).participants.num_rows == 4
+
+
+def test_a_study_recorded_elsewhere_is_read(ward: Path):
     """A hand-made directory: a short study.yaml, two tables from pandas, one lap's steps."""
-    head = {
-        "protocol": {
-            "name": "ward", "title": "On a ward", "conditions": {"with": {}, "without": {}},
-            "laps": [{"condition": "without"}, {"condition": "with"}],
-        },
-        "course": plan.course.model_dump(mode="json", by_alias=True),
-    }  # fmt: skip
-    (tmp_path / "study.yaml").write_text(plain_yaml(head))
-    pd.DataFrame({"participant": ["Ann", "Bea"]}).to_parquet(tmp_path / "participants.parquet")
-    laps = pd.DataFrame(
-        {"participant": ["Ann", "Ann", "Bea"], "lap": [0, 1, 0], "completed": True,
-         "condition": ["without", "with", "without"], "lap_time_s": [50.0, 45.0, 60.0]}
-    )  # fmt: skip
-    laps.to_parquet(tmp_path / "laps.parquet")
-    (tmp_path / "sessions" / "Ann").mkdir(parents=True)
-    steps = pd.DataFrame({"t_s": [0.0, 0.1], "x_m": [1.0, 1.1], "y_m": [2.0, 2.0]})
-    steps.to_parquet(tmp_path / "sessions" / "Ann" / "steps-1.parquet")
-    study = open_study(tmp_path)
+    study = open_study(ward)
     assert study.seed is None
     assert study.laps["lap_time_s"].to_pylist() == [50, 45, 60]
     assert study.surveys.num_rows == 0
