@@ -1,0 +1,141 @@
+"""How a run scales: cores against wall time, and a thousand participants against memory.
+
+    python bench/scale.py cores --participants 12 48 --jobs 1 2 --repeats 3
+    python bench/scale.py cohort --participants 1000 --out DIR
+
+The first runs whole studies by the command line, interleaved, and prints the median wall time and
+the speedup over one process. The second runs one study and its report while it watches their
+memory. Both write their rows with --json FILE. The tables in docs/scale.md were made with it.
+"""
+
+import argparse
+import json
+import os
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import psutil
+
+COMMAND = (sys.executable, "-c", "from harness.cli import main; main()")
+EVERY_S = 0.5
+"""How often memory is looked at."""
+MB = 1e6
+
+
+def main() -> None:
+    """Measure what the arguments ask for, and print it as a table."""
+    arguments = _arguments()
+    rows = arguments.measure(arguments)
+    if arguments.json:
+        arguments.json.write_text(json.dumps(rows, indent=1) + "\n")
+
+
+def cores(arguments: argparse.Namespace) -> list[dict[str, Any]]:
+    """Run studies of every size with every number of processes, in turn."""
+    walls: dict[tuple[int, int], list[float]] = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for _ in range(arguments.repeats):
+            for participants in arguments.participants:
+                for jobs in arguments.jobs:
+                    out = Path(folder) / "study"
+                    begun = time.perf_counter()
+                    command = _run(arguments, participants, jobs, out)
+                    subprocess.run(command, check=True)  # noqa: S603  # our own command
+                    walls.setdefault((participants, jobs), []).append(time.perf_counter() - begun)
+                    shutil.rmtree(out)
+    print(f"{'participants':>12} {'jobs':>5} {'wall s':>8} {'speedup':>8}")
+    rows = []
+    for (participants, jobs), seconds in walls.items():
+        wall = statistics.median(seconds)
+        speedup = statistics.median(walls[participants, arguments.jobs[0]]) / wall
+        rows.append({"participants": participants, "jobs": jobs, "wall_s": wall,
+                     "speedup": speedup, "all_wall_s": seconds})  # fmt: skip
+        print(f"{participants:12d} {jobs:5d} {wall:8.2f} {speedup:8.2f}")
+    return rows
+
+
+def cohort(arguments: argparse.Namespace) -> list[dict[str, Any]]:
+    """Run one study, then its report, and watch both."""
+    (participants,), out = arguments.participants, arguments.out
+    command = _run(arguments, participants, arguments.jobs[-1], out)
+    wall, memory = _watched(command, lambda: len(list((out / "sessions").glob("P*"))))
+    rows: list[dict[str, Any]] = [
+        {"part": "run", "wall_s": wall, "sessions_per_minute": 60 * participants / wall,
+         "runner_peak_mb": max(rss for _, rss in memory), "size_mb": _size(out),
+         "runner_mb_by_sessions": _thinned(memory)}
+    ]  # fmt: skip
+    wall, memory = _watched((*COMMAND, "report", str(out)), lambda: 0)
+    rows.append({"part": "report", "wall_s": wall, "peak_mb": max(rss for _, rss in memory)})
+    for row in rows:
+        print(row.pop("part"), *(f"  {name}: {_shown(value)}" for name, value in row.items()),
+              sep="\n")  # fmt: skip
+    return rows
+
+
+def _watched(command: Sequence[str], count: Any) -> tuple[float, list[tuple[int, float]]]:
+    """Return a command's wall time, and its own memory by what had been counted meanwhile."""
+    begun = time.perf_counter()
+    running = subprocess.Popen(command)  # noqa: S603  # our own command
+    process, memory = psutil.Process(running.pid), []
+    while running.poll() is None:
+        memory.append((count(), process.memory_info().rss / MB))
+        time.sleep(EVERY_S)
+    if running.returncode:
+        raise SystemExit(f"{' '.join(command)} ended with exit code {running.returncode}")
+    return time.perf_counter() - begun, memory
+
+
+def _thinned(memory: Sequence[tuple[int, float]]) -> dict[int, float]:
+    """Return the memory at about ten numbers of finished sessions."""
+    last = max(count for count, _ in memory)
+    at: dict[int, float] = {}
+    for count, rss in memory:
+        mark = round(10 * count / max(1, last)) * last // 10
+        at[mark] = max(at.get(mark, 0.0), rss)
+    return at
+
+
+def _size(folder: Path) -> float:
+    return sum(_sizes(folder)) / MB
+
+
+def _sizes(folder: Path) -> Iterator[int]:
+    return (path.stat().st_size for path in folder.rglob("*") if path.is_file())
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, dict):
+        return ", ".join(f"{key}: {_shown(inner)}" for key, inner in value.items())
+    return f"{value:.1f}" if isinstance(value, float) else str(value)
+
+
+def _run(arguments: argparse.Namespace, participants: int, jobs: int, out: Path) -> list[str]:
+    options = ("--participants", participants, "--jobs", jobs, "--out", out)
+    return [*COMMAND, "run", arguments.protocol, "--no-report", *map(str, options)]
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("what", choices=("cores", "cohort"))
+    parser.add_argument("--participants", type=int, nargs="+", default=[12, 48])
+    parser.add_argument("--jobs", type=int, nargs="+", default=[1, os.cpu_count() or 1])
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--protocol", default="four-lap")
+    parser.add_argument("--out", type=Path, default=Path("studies/cohort"))
+    parser.add_argument("--json", type=Path)
+    arguments = parser.parse_args()
+    arguments.measure = {"cores": cores, "cohort": cohort}[arguments.what]
+    if arguments.what == "cohort" and len(arguments.participants) != 1:
+        parser.error("cohort takes one number of participants")
+    return arguments
+
+
+if __name__ == "__main__":
+    main()
