@@ -65,7 +65,9 @@ class Started:
 
 
 def _code(largest_file):
-    code = "from harness.cli import main; main()"
+    # Whoever runs the tests in the background may have had Ctrl-C ignored for all it starts.
+    hear = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
+    code = f"{hear}; from harness.cli import main; main()"
     if largest_file is None:
         return code
     limit = f"resource.setrlimit(resource.RLIMIT_FSIZE, ({largest_file}, {largest_file}))"
