@@ -5,11 +5,13 @@ lap. They make it cheap to ask what a whole population would do; what they say a
 against laps that are driven.
 """
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
 
 import numpy as np
 from numpy.typing import NDArray
+from sklearn.exceptions import ConvergenceWarning
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct, WhiteKernel
 
@@ -81,7 +83,10 @@ class LapTime:
         kernel = DotProduct(1.0) * ConstantKernel(0.1, (1e-5, 1e2)) + smooth
         kernel += WhiteKernel(1e-3, (1e-6, 1e-1))
         self._gp = GaussianProcessRegressor(kernel, normalize_y=True, random_state=0)
-        self._gp.fit(self._scaled(x), np.log(seconds))
+        with warnings.catch_warnings():
+            # A length at its upper bound says that the trait does not matter.
+            warnings.simplefilter("ignore", ConvergenceWarning)
+            self._gp.fit(self._scaled(x), np.log(seconds))
 
     @property
     def noise(self) -> float:
