@@ -50,12 +50,12 @@ class AttentiveOptions(Options):
         Standard deviation of its logarithm, between interventions.
     pace
         How fast it drives through a corner, as a share of the speed at which the chair, turning
-        as fast as it can, could just follow it.
+        as fast as it can, could just follow it; by default as ``bench/calibrate_course.py`` found.
     """
 
     reaction_s: Annotated[float, Field(ge=0.0, le=3.0)] = 0.4
     reaction_spread: Annotated[float, Field(ge=0.0, le=1.0)] = 0.25
-    pace: Annotated[float, Field(ge=0.2, le=1.0)] = 1.0
+    pace: Annotated[float, Field(ge=0.2, le=1.0)] = 0.92
 
 
 class AttentiveDemonstrator:
