@@ -22,8 +22,13 @@ def compile_cached(function: F, fastmath: Iterable[str]) -> F:
 
 
 def compiled(function: F) -> F:
-    """Compile with the arithmetic in the order written; a product and a sum may be fused."""
-    return compile_cached(function, ("contract",))
+    """Compile with the arithmetic exactly as written; nothing is fused or reordered.
+
+    A function that others call exists several times: its own machine code, and copies inside its
+    callers', each optimised by itself. Which one runs depends on whether it was compiled in this
+    process or came from the cache. Exact arithmetic makes all of them give the same bits.
+    """
+    return compile_cached(function, ())
 
 
 def compiled_sums(function: F) -> F:
