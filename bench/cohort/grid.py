@@ -16,7 +16,7 @@ TARGETS = {
     "limited mean": 76.7,
     "limited sd": 24.8,
 }
-"""The only figures the cohort is calibrated on, s: Soh & Demiris (2014), section V.B."""
+"""The only figures the cohort is calibrated on, s: Soh & Demiris (2013), section V.B."""
 
 TOLERANCES = {"mean": 0.05, "sd": 0.10}
 

@@ -21,7 +21,7 @@ PUBLISHED = {
     "limited / model": 1.37,
     "model - human": 11.55,
 }
-"""Soh & Demiris (2014), section V.B; the last is the difference of its means."""
+"""Soh & Demiris (2013), section V.B; the last is the difference of its means."""
 
 JOINT = ("human-assisted mean", "human-assisted sd", "model-assisted mean")
 """Printed and predicted: looked at together."""
