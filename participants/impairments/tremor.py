@@ -61,7 +61,8 @@ def amplitude(severity: float) -> float:
     [0.0, 0.014, 0.06, 0.204, 0.66]
     """
     at_zero: float = 10.0**LOG_INTERCEPT
-    return at_zero * (10.0 ** (LOG_SLOPE * WORST * severity) - 1.0) / THROW
+    swing: float = at_zero * (10.0 ** (LOG_SLOPE * WORST * severity) - 1.0) / THROW
+    return swing
 
 
 class Tremor:
