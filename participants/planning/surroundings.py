@@ -41,4 +41,5 @@ def map_field(raster: Occupancy, pose: Pose) -> NDArray[np.float64]:
     rows = (pose.y + s * ahead + c * left - raster.origin[1]) / raster.cell
     found = ndimage.map_coordinates(raster.distance, [rows, columns], order=1, mode="nearest")
     # Both rasters answer for the whole cell with its centre's distance.
-    return np.clip(found - CELL / math.sqrt(2.0), 0.0, FAR)
+    distance: NDArray[np.float64] = np.clip(found - CELL / math.sqrt(2.0), 0.0, FAR)
+    return distance
