@@ -290,26 +290,29 @@ def run(rounds: int) -> list[Row]:
 
 
 def table(rows: list[Row]) -> str:
-    """Format the medians, with what ``lad`` takes in units of dsymv and of the others."""
+    """Format the medians, a table for each tau; in brackets, how many times as long as ``lad``."""
     found = {(r.implementation, r.operation, r.m, r.tau): r.median_us for r in rows}
-    names = [
-        n
-        for n in ("lad", "blas", "numpy", "sklearn", "gpytorch")
-        if any(r.implementation == n for r in rows)
+    others = [
+        name
+        for name in ("blas", "numpy", "sklearn", "gpytorch")
+        if any(row.implementation == name for row in rows)
     ]
-    header = ["operation", "tau", "m", *names, "dsymv", "lad/dsymv", "lad/blas", "lad/numpy"]
-    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
-    for operation in OPERATIONS:
-        for tau in DEPTHS:
-            for m in SIZES:
-                at = {name: found.get((name, operation, m, tau), math.nan) for name in names}
-                product = found["bound", "dsymv", m, tau]
-                numbers = [f"{at[name]:.1f}" if at[name] == at[name] else "" for name in names]
-                ratios = [at["lad"] / other for other in (product, at["blas"], at["numpy"])]
-                cells = [operation, str(tau), str(m), *numbers, f"{product:.1f}"]
-                cells += [f"{ratios[0]:.1f}", f"{ratios[1]:.2f}", f"{ratios[2]:.3f}"]
-                lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+    header = ["m", "operation", "lad", *others, "dsymv", "dsyr", "lad / dsymv"]
+    blocks = []
+    for tau in DEPTHS:
+        lines = ["| " + " | ".join(header) + " |", "|---:|---|" + "---:|" * (len(header) - 2)]
+        for m in SIZES:
+            bounds = [found["bound", name, m, tau] for name in ("dsymv", "dsyr")]
+            for operation in OPERATIONS:
+                own = found["lad", operation, m, tau]
+                cells = [str(m), operation, f"{own:.1f}"]
+                for name in others:
+                    other = found.get((name, operation, m, tau))
+                    cells.append("" if other is None else f"{other:.0f} ({other / own:.1f})")
+                cells += [f"{bound:.1f}" for bound in bounds]
+                lines.append("| " + " | ".join([*cells, f"{own / bounds[0]:.1f}"]) + " |")
+        blocks.append(f"**tau = {tau}**\n\n" + "\n".join(lines))
+    return "\n\n".join(blocks)
 
 
 def verdict(rows: list[Row]) -> str:
