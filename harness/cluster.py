@@ -2,6 +2,7 @@
 
 import logging
 from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import CancelledError
 from contextlib import contextmanager
 from itertools import islice
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -16,6 +17,8 @@ T = TypeVar("T")
 
 PATIENCE_S = 15
 """How long a scheduler may take to answer, and its first worker to be there, s."""
+
+LOST = "the Dask scheduler was lost; the same command again goes on"
 
 AHEAD = 2
 """Tasks per worker thread that are handed out: the one it is in, and the next."""
@@ -58,22 +61,35 @@ class Cluster:
         waiting, running = iter(numbers), as_completed()
         under_way: dict[Future[Any], int] = {}
         while True:
-            room = max(1, AHEAD * self._threads()) - len(under_way)
-            for number in islice(waiting, max(0, room)):
-                future = self._client.submit(task, number, pure=False)
-                under_way[future] = number
-                running.add(future)
-            if not under_way:
-                return
-            future = next(running)
-            yield under_way.pop(future), self._answer(future)
+            with self._loss_told():
+                room = max(1, AHEAD * self._threads()) - len(under_way)
+                for number in islice(waiting, max(0, room)):
+                    future = self._client.submit(task, number, pure=False)
+                    under_way[future] = number
+                    running.add(future)
+                if not under_way:
+                    return
+                future = next(running)
+                answer = self._answer(future)
+            yield under_way.pop(future), answer
+
+    @contextmanager
+    def _loss_told(self) -> Iterator[None]:
+        """Say that the scheduler was lost, in whichever call that shows."""
+        try:
+            yield
+        except Exception as error:
+            connected = self._client.status == "running"
+            if connected and not isinstance(error, OSError | CancelledError):
+                raise
+            raise ConnectionError(LOST) from error
 
     def _threads(self) -> int:
         return sum(self._client.nthreads().values())
 
     def _answer(self, future: "Future[Any]") -> Any:
         if future.cancelled():
-            raise ConnectionError("the Dask scheduler was lost; the same command again goes on")
+            raise ConnectionError(LOST)
         error = future.exception()
         if error is not None:  # of the cluster: a task's own exceptions are part of its answer
             return Died(f"{type(error).__name__}: {error}")

@@ -52,8 +52,11 @@ class Client:
 
     def __init__(self):
         self.under_way, self.most = 0, 0
+        self.status, self.fault = "running", None
 
     def nthreads(self):
+        if self.fault:
+            raise self.fault
         return {"tcp://a": 1, "tcp://b": 1}
 
     def submit(self, task, number, *, pure):
@@ -105,3 +108,27 @@ def test_a_lost_scheduler_is_an_error_of_the_run(run):
     _, answers = run
     with pytest.raises(ConnectionError, match="scheduler was lost"):
         answers(lambda n: None if n == 3 else n, range(5))
+
+
+@pytest.mark.parametrize(
+    ("status", "fault"),
+    [
+        ("running", ConnectionResetError(104, "Connection reset by peer")),
+        ("connecting", TimeoutError("no answer")),
+        ("closed", RuntimeError("Client is closed")),
+    ],
+)
+def test_a_scheduler_lost_in_any_call_is_told_in_the_same_words(run, status, fault):
+    """Whether the loss shows in a call's own connection or in a result is a matter of timing."""
+    client, answers = run
+    client.status, client.fault = status, fault
+    with pytest.raises(ConnectionError, match=r"^the Dask scheduler was lost; the same command"):
+        answers(lambda n: n, range(5))
+
+
+def test_a_fault_of_ours_is_not_taken_for_a_lost_scheduler(run):
+    """While the client is connected, what is raised stays what it is."""
+    client, answers = run
+    client.fault = RuntimeError("something else")
+    with pytest.raises(RuntimeError, match="something else"):
+        answers(lambda n: n, range(5))
