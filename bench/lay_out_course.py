@@ -151,10 +151,10 @@ def lay_out(layout: Layout, name: str, title: str, description: str) -> dict:
         ],
         "walls": [], "furniture": [],
     }  # fmt: skip
-    path = Centreline(_stub(draft))
+    path = Centreline(stub(draft))
     draft["gates"] = _gates(layout, path, ends)
     draft["walls"] = _walls(layout, path, line, ends)
-    draft["furniture"] = [_furniture(path, ends, f) for f in layout.furniture]
+    draft["furniture"] = [place(path, ends, f) for f in layout.furniture]
     return draft
 
 
@@ -163,7 +163,7 @@ def _walls(layout: Layout, path: Centreline, line: np.ndarray, ends: dict) -> li
     loop = shapely.Polygon(line)
     free = shapely.LinearRing(line).buffer(half, join_style="mitre", mitre_limit=1.2)
     for niche in layout.niches:
-        free = free.union(shapely.Polygon(_corners(path, ends, niche)))
+        free = free.union(shapely.Polygon(fitting_corners(path, ends, niche)))
     free = shapely.simplify(free, 0.02)
     core = max(free.interiors, key=lambda ring: shapely.Polygon(ring).area)
     walls = [
@@ -208,7 +208,8 @@ def _frame(path: Centreline, ends: dict, fitting: Fitting) -> tuple[np.ndarray, 
     return np.array([x, y]) + (fitting.clear + fitting.deep / 2) * outwards, heading
 
 
-def _corners(path: Centreline, ends: dict, fitting: Fitting) -> np.ndarray:
+def fitting_corners(path: Centreline, ends: dict, fitting: Fitting) -> np.ndarray:
+    """Return a fitting's corners on the floor plan."""
     centre, heading = _frame(path, ends, fitting)
     along = np.array([math.cos(heading), math.sin(heading)]) * fitting.along / 2
     across = np.array([-math.sin(heading), math.cos(heading)]) * fitting.deep / 2
@@ -217,7 +218,8 @@ def _corners(path: Centreline, ends: dict, fitting: Fitting) -> np.ndarray:
     )
 
 
-def _furniture(path: Centreline, ends: dict, fitting: Fitting) -> dict:
+def place(path: Centreline, ends: dict, fitting: Fitting) -> dict:
+    """Return a piece of furniture as it stands in a course file."""
     centre, heading = _frame(path, ends, fitting)
     return {
         "name": fitting.name, "x": _r(centre[0]), "y": _r(centre[1]),
@@ -226,7 +228,7 @@ def _furniture(path: Centreline, ends: dict, fitting: Fitting) -> dict:
     }  # fmt: skip
 
 
-def _stub(draft: dict) -> Course:
+def stub(draft: dict) -> Course:
     """Return a course with one wall and one gate, enough to measure along its centreline."""
     placeholder = {"name": "none", "points": [[90.0, 90.0], [91.0, 90.0]]}
     gate = {"name": "F", "left": [90.0, 91.0], "right": [90.0, 90.0]}
@@ -272,12 +274,17 @@ def write(out: Path, layout: Layout = LAB_OFFICE) -> Course:
         "A loop like Fig. 2 of Soh & Demiris (2013): from S through sharp right turns at R1 and "
         "R2, and back to F through two soft right bends.",
     )  # fmt: skip
+    write_yaml(data, out)
+    return Course.model_validate(data)
+
+
+def write_yaml(data: dict, out: Path) -> None:
+    """Write a course file."""
     yaml = YAML()
     yaml.default_flow_style = None
     yaml.width = 100
     with out.open("w") as file:
         yaml.dump(data, file)
-    return Course.model_validate(data)
 
 
 def main() -> None:

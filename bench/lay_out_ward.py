@@ -1,0 +1,225 @@
+"""Lay out a hospital corridor with sharp rights, soft bends and left turns, and write the course.
+
+    python bench/lay_out_ward.py protocols/courses/ward-corridor.yaml --picture ward-corridor.png
+
+Another building than the paper's: nothing in it is calibrated. The way is legs and turns; rooms
+(open doors, bays, a nurses' station) are cut into the corridor's walls, and furniture is placed by
+arc length and distance from the centreline, as for the default course.
+"""
+
+import argparse
+import itertools
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import shapely
+from lay_out_course import LEFT, RIGHT, Fitting, draw, fitting_corners, place, stub, write_yaml
+
+from protocols.course.centreline import Centreline
+from protocols.course.drivable import check_drivable
+from protocols.course.schema import Course
+
+HALF_WIDTH = 1.05
+"""From the centreline to a wall's face, m."""
+
+THICKNESS = 0.1
+RUN_IN, RUN_OUT = 1.1, 1.6
+"""Floor behind the start and past the finish, m."""
+
+
+@dataclass(frozen=True)
+class Turn:
+    """A turn to the left (positive degrees) or right, rounded; and the leg after it."""
+
+    name: str
+    kind: str
+    degrees: float
+    radius: float
+    leg: str
+    metres: float
+
+
+FIRST_LEG = ("from the bay", 3.0)
+TURNS = (
+    Turn("R1", "sharp_right", -105.0, 0.55, "to the lift", 4.0),
+    Turn("L1", "left", 105.0, 0.6, "past the lift", 3.6),
+    Turn("soft bend 1", "soft_right", -40.0, 1.5, "ramp", 4.6),
+    Turn("R2", "sharp_right", -130.0, 0.55, "ward", 6.4),
+    Turn("soft bend 2", "soft_right", -30.0, 1.8, "past the kitchen", 2.8),
+    Turn("L2", "left", 75.0, 0.8, "to the day room", 2.6),
+)
+
+ROOMS = (
+    Fitting("bathroom", ("from the bay", 1.5), LEFT, 1.0, 1.2, 1.3),
+    Fitting("store", ("to the lift", 0.7), LEFT, 1.0, 1.1, 1.0),
+    Fitting("lift", ("past the lift", 1.9), RIGHT, 1.0, 1.2, 0.85),
+    Fitting("nurses' station", ("ramp", 1.6), LEFT, 1.0, 2.2, 1.2),
+    Fitting("bay 2", ("ward", 1.5), LEFT, 1.0, 2.0, 1.8),
+    Fitting("bay 3", ("ward", 4.2), LEFT, 1.0, 1.8, 1.8),
+    Fitting("kitchen", ("past the kitchen", 0.5), RIGHT, 1.0, 1.4, 1.1),
+    Fitting("day room", ("to the day room", 1.6), LEFT, 1.0, 1.6, 1.6),
+)
+
+FURNITURE = (
+    Fitting("linen cart", ("from the bay", 0.4), RIGHT, 0.72, 0.6, 0.3, 1.1),
+    Fitting("wash basin", ("from the bay", 1.5), LEFT, 1.7, 0.6, 0.4, 0.85),
+    Fitting("notice board", ("R1", 0.3), LEFT, 0.85, 0.9, 0.12, 1.7, 0.2),
+    Fitting("shelves", ("to the lift", 0.7), LEFT, 1.5, 0.9, 0.35, 1.9),
+    Fitting("bench", ("to the lift", 1.2), RIGHT, 0.78, 1.1, 0.27, 0.45),
+    Fitting("fire extinguisher", ("L1", 0.2), RIGHT, 0.80, 0.2, 0.2, 0.6),
+    Fitting("wheelchair", ("past the lift", 2.4), LEFT, 0.70, 0.8, 0.35, 0.9, 0.1),
+    Fitting("drip stand", ("past the lift", 0.7), RIGHT, 0.75, 0.3, 0.3, 1.7),
+    Fitting("medicine trolley", ("ramp", 1.0), RIGHT, 0.68, 0.5, 0.37, 1.0),
+    Fitting("counter", ("ramp", 1.6), LEFT, 1.15, 1.8, 0.5, 1.1),
+    Fitting("pillar", ("R2", 0.4), LEFT, 0.78, 0.35, 0.3, 2.4),
+    Fitting("bed 2", ("ward", 1.4), LEFT, 1.3, 0.9, 1.4, 0.9),
+    Fitting("locker", ("ward", 2.9), LEFT, 0.72, 0.45, 0.33, 1.2),
+    Fitting("bed 3", ("ward", 4.4), LEFT, 1.5, 0.9, 1.2, 0.9),
+    Fitting("radiator", ("ward", 3.4), RIGHT, 0.9, 1.4, 0.15, 0.7),
+    Fitting("fridge", ("past the kitchen", 0.6), RIGHT, 1.3, 0.6, 0.6, 1.8),
+    Fitting("chairs", ("past the kitchen", 0.9), LEFT, 0.75, 1.0, 0.3, 0.8),
+    Fitting("plant", ("L2", 0.6), RIGHT, 0.75, 0.3, 0.3, 1.2),
+    Fitting("table", ("to the day room", 1.7), LEFT, 1.5, 0.9, 0.7, 0.75),
+    Fitting("piano", ("to the day room", 1.3), RIGHT, 0.68, 1.2, 0.37, 1.2),
+)
+
+
+def way() -> tuple[np.ndarray, list[tuple[str, str, float]]]:
+    """Return the centreline, its turns rounded, and each section's name, kind and end (m)."""
+    corners = _vertices()
+    line, sections = [corners[0]], []
+    legs = [FIRST_LEG[0], *(turn.leg for turn in TURNS)]
+    for i, turn in enumerate(TURNS, start=1):
+        into = (corners[i] - corners[i - 1]) / np.hypot(*(corners[i] - corners[i - 1]))
+        angle = math.radians(turn.degrees)
+        begin = corners[i] - turn.radius * math.tan(abs(angle) / 2) * into
+        side = math.copysign(1.0, angle)
+        centre = begin + side * turn.radius * np.array([-into[1], into[0]])
+        arc = [
+            centre + _rotated(begin - centre, share * angle)
+            for share in np.linspace(0.0, 1.0, math.ceil(abs(turn.degrees) / 15) + 1)
+        ]
+        line.append(arc[0])
+        sections.append((legs[i - 1], "straight", _length(line)))
+        line += arc[1:]
+        sections.append((turn.name, turn.kind, _length(line)))
+    line.append(corners[-1])
+    sections.append((legs[-1], "straight", _length(line)))
+    return np.array(line), sections
+
+
+def lay_out() -> dict:
+    """Return the course as the plain data of its file."""
+    line, sections = way()
+    draft = {
+        "schema": 1, "name": "ward-corridor", "title": "Ward corridor",
+        "description": "Not the paper's: sharp rights at R1 and R2, soft right bends, and left "
+        "turns between them.",
+        "start": {"x": 0.0, "y": 0.0, "heading": 0.0},
+        "gates": [], "centreline": _points(line),
+        "sections": [
+            {"name": name, "kind": kind} | ({"until": _r(end)} if name != TURNS[-1].leg else {})
+            for name, kind, end in sections
+        ],
+        "walls": [], "furniture": [],
+    }  # fmt: skip
+    path = Centreline(stub(draft))
+    starts = [0.0, *(end for _, _, end in sections)]
+    ends = {s[0]: span for s, span in zip(sections, itertools.pairwise(starts), strict=True)}
+    free = _free(path, line, ends)
+    draft["walls"] = _walls(free)
+    draft["gates"] = _gates(path, ends, free)
+    draft["furniture"] = [place(path, ends, piece) for piece in FURNITURE]
+    return draft
+
+
+def _vertices() -> np.ndarray:
+    headings = np.cumsum([0.0, *(math.radians(turn.degrees) for turn in TURNS)])
+    legs = np.array([FIRST_LEG[1], *(turn.metres for turn in TURNS)])
+    ways = np.stack([np.cos(headings), np.sin(headings)], axis=1)
+    return np.vstack([[0.0, 0.0], np.cumsum(legs[:, None] * ways, axis=0)])
+
+
+def _free(path: Centreline, line: np.ndarray, ends: dict) -> shapely.Polygon:
+    """Return the floor up to the walls' middle lines."""
+    behind = line[0] - RUN_IN * _unit(line[1] - line[0])
+    ahead = line[-1] + RUN_OUT * _unit(line[-1] - line[-2])
+    reach = HALF_WIDTH + THICKNESS / 2
+    whole = shapely.LineString([behind, *line, ahead])
+    free = whole.buffer(reach, cap_style="flat", join_style="mitre", mitre_limit=1.2)
+    for room in ROOMS:
+        free = free.union(shapely.Polygon(fitting_corners(path, ends, room)))
+    return shapely.simplify(free, 0.02)
+
+
+def _walls(free: shapely.Polygon) -> list[dict]:
+    rings = {"outer wall": free.exterior} | {
+        f"core {i}": ring for i, ring in enumerate(free.interiors, start=1)
+    }
+    return [
+        {"name": name, "closed": True, "points": _points(ring.coords[:-1]),
+         "thickness": THICKNESS, "height": 2.4}
+        for name, ring in rings.items()
+    ]  # fmt: skip
+
+
+def _gates(path: Centreline, ends: dict, free: shapely.Polygon) -> list[dict]:
+    """Return a gate from wall to wall in the middle of each sharp turn, and at the finish."""
+    places = {turn.name: sum(ends[turn.name]) / 2 for turn in TURNS if "soft" not in turn.name}
+    gates = []
+    for name, arc in {**places, "F": path.length}.items():
+        x, y, heading = path.point(arc)
+        left = np.array([-math.sin(heading), math.cos(heading)])
+        posts = [_towards(free, np.array([x, y]), side * left) for side in (LEFT, RIGHT)]
+        gates.append({"name": name, "left": _points(posts)[0], "right": _points(posts)[1]})
+    return gates
+
+
+def _towards(free: shapely.Polygon, at: np.ndarray, way_out: np.ndarray) -> np.ndarray:
+    """Return the wall's face in a direction, or where the corridor would end at a wide place."""
+    line = shapely.LineString([at, at + 3 * way_out])
+    hit = shapely.get_parts(line.intersection(free.boundary))
+    to_wall = min((shapely.Point(at).distance(point) for point in hit), default=math.inf)
+    return at + min(to_wall - THICKNESS / 2, 1.6) * way_out
+
+
+def _rotated(vector: np.ndarray, angle: float) -> np.ndarray:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]])
+
+
+def _unit(vector: np.ndarray) -> np.ndarray:
+    return vector / np.hypot(*vector)
+
+
+def _length(points: list) -> float:
+    return float(np.hypot(*np.diff(np.array(points), axis=0).T).sum())
+
+
+def _r(value: float) -> float:
+    return round(float(value), 3) + 0.0
+
+
+def _points(points: object) -> list[list[float]]:
+    return [[_r(x), _r(y)] for x, y in points]
+
+
+def main() -> None:
+    """Write the course file and, on request, its picture."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--picture", type=Path)
+    arguments = parser.parse_args()
+    data = lay_out()
+    write_yaml(data, arguments.out)
+    course = Course.model_validate(data)
+    if arguments.picture:
+        draw(course, arguments.picture)
+    check_drivable(course)
+    print(f"centreline {Centreline(course).length:.2f} m")
+
+
+if __name__ == "__main__":
+    main()
