@@ -1,12 +1,17 @@
 """One quantity of the paper beside ours, and the verdict that follows from the row's numbers."""
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any, Literal
 
 Kind = Literal["calibrated", "predicted", "descriptive"]
 Verdict = Literal["holds", "differs", "none"]
 Rule = Literal["near paper", "at least", "near zero", "interval near zero"]
+
+FIELDS = (
+    "section", "quantity", "unit", "paper", "ours", "n", "low", "high", "tolerance", "rule", "kind"
+)  # fmt: skip
+"""Of a row of the JSON, before its verdict."""
 
 SLACK = 1e-9
 """What a comparison forgives: 0.9905 - 0.0055 is not quite 0.985 in binary."""
@@ -33,11 +38,11 @@ class Row:
     low, high
         Its interval; NaN where there is none. 95% for means and ratios, 90% for an equivalence
         test, quartiles for medians over permutations.
-    tolerance
-        Declared beforehand (see ``analysis.reproduction.tolerances``); None for none.
     kind
         Calibrated: fitted to the paper's figure. Predicted: it could have come out differently.
         Descriptive: reported only.
+    tolerance
+        Declared beforehand (see ``analysis.reproduction.tolerances``); None for none.
     rule
         What the tolerance means, as ``verdict_of`` explains it.
     """
@@ -50,8 +55,8 @@ class Row:
     n: int
     low: float
     high: float
-    tolerance: float | None
     kind: Kind
+    tolerance: float | None = None
     rule: Rule = "near paper"
 
     @property
@@ -64,7 +69,7 @@ class Row:
 
         The rule is None where there is no tolerance.
         """
-        row = {name: _jsonable(value) for name, value in asdict(self).items()}
+        row = {name: _jsonable(getattr(self, name)) for name in FIELDS}
         if self.tolerance is None:
             row["rule"] = None
         return {**row, "verdict": verdict_of(row)}

@@ -1,9 +1,9 @@
 """What counts as reproduced, declared before anything was run. Nothing else gets a verdict."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from analysis.reproduction.rows import Rule
+from analysis.reproduction.rows import Row, Rule
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,3 +29,11 @@ TOLERANCES: Mapping[str, Tolerance] = {
     "tost model after 3": Tolerance(2.0, "interval near zero"),
 }
 """By quantity."""
+
+
+def judged(row: Row) -> Row:
+    """Return a row with the tolerance declared for its quantity; as it is when there is none."""
+    declared = TOLERANCES.get(row.quantity)
+    if declared is None:
+        return row
+    return replace(row, tolerance=declared.value, rule=declared.rule)

@@ -1,0 +1,83 @@
+"""What the reproduction stands on: three recorded studies, and models taught again from one."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+import pandas as pd
+
+from analysis.frames import StudyFrames, study_frames
+from analysis.randomness import generator
+from analysis.reproduction.accuracy import accuracy_table
+from analysis.reproduction.demonstrations import demonstrations
+from analysis.reproduction.lap_times import lap_time_table
+from analysis.reproduction.teaching import Run, permutations, teach_in_orders
+from lad.lad_assistant import LADAssistant
+from protocols.record.reader import open_study
+
+STUDIES = "studies"
+"""The folder of a reproduction that holds its study directories, each by its protocol's name."""
+
+PERMUTATIONS = 15
+"""Random orders the demonstrations are taught in (section IV.D)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Evidence:
+    """Everything that rows and figures are made from.
+
+    Attributes
+    ----------
+    seed
+        Of all three studies.
+    laps, people
+        The studies ``rd-laps`` and ``four-lap``.
+    lap_times
+        ``rd-laps`` by condition; see ``analysis.reproduction.lap_times``.
+    runs
+        The demonstrations of ``rd-accuracy``, taught to fresh models in random orders.
+    accuracy
+        Their accuracy lap by lap; see ``analysis.reproduction.accuracy``.
+    """
+
+    seed: int
+    laps: StudyFrames
+    people: StudyFrames
+    lap_times: pd.DataFrame
+    runs: tuple[Run, ...]
+    accuracy: pd.DataFrame
+
+
+def gather(folder: Path, jobs: int = 1, tell: Callable[[int, int], None] | None = None) -> Evidence:
+    """Read the studies of a reproduction, and teach the demonstrations in random orders.
+
+    Parameters
+    ----------
+    folder
+        The reproduction's.
+    jobs
+        Processes that teach, 1 or more.
+    tell
+        Told how many models have been taught, and of how many.
+
+    Raises
+    ------
+    InputError
+        When one of the studies is not there or cannot be used.
+    """
+    laps = study_frames(open_study(folder / STUDIES / "rd-laps"))
+    people = study_frames(open_study(folder / STUDIES / "four-lap"))
+    recorded = open_study(folder / STUDIES / "rd-accuracy")
+    taught = demonstrations(recorded)
+    orders = permutations(len(taught), PERMUTATIONS, generator(recorded, "permutations"))
+    fresh = partial(LADAssistant, recorded.protocol.model.parameters)
+    runs = teach_in_orders(fresh, taught, orders, jobs, tell)
+    return Evidence(
+        seed=recorded.seed or 0,
+        laps=laps,
+        people=people,
+        lap_times=lap_time_table(laps),
+        runs=runs,
+        accuracy=accuracy_table(runs),
+    )
