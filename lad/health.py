@@ -19,11 +19,11 @@ from lad.triangle import Vector, aligned_zeros, row_of
 from lad.update import SMALLEST_NOVELTY
 
 LARGEST_RESIDUAL = 1e-6
-LIMIT = LARGEST_RESIDUAL / 2.0
-"""Half, because the one column looked at stands for all the others."""
+LIMIT = LARGEST_RESIDUAL / 10.0
+"""A tenth, because the one column looked at stands for all the others."""
 
 LEAST_RISK = 1.0 / 16.0
-RISKY_NOVELTY = 3e-4
+RISKY_NOVELTY = 3e-3
 ROUND_EVERY = 8
 """Every eighth look takes in one column more, in turn, so that none is left out for ever."""
 
@@ -37,7 +37,7 @@ class Health:
     residual
         Largest entry of the column (or two) of |QK - I| looked at last.
     limit
-        Residual of that column at which Q is computed anew: half of 1e-6, or ten times what the
+        Residual of that column at which Q is computed anew: a tenth of 1e-6, or ten times what the
         last repair could reach where the kernel matrix is so ill-conditioned that float64 cannot
         do better.
     probes
@@ -49,7 +49,7 @@ class Health:
         Table I, and with any noise worth the name.
     risk
         Sum, since the last look, of a weight per change of Q: at least 1/16, and 1 when the
-        novelty was 3e-4 or less (the error of a full update grows with 1 / gamma). The next look
+        novelty was 3e-3 or less (the error of a full update grows with 1 / gamma). The next look
         is due at 1.
     """
 
