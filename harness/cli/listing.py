@@ -12,7 +12,7 @@ def protocols() -> None:
     from protocols.load import load_protocol, shipped_protocols
 
     for name in shipped_protocols():
-        say(f"{name:<16} {load_protocol(name).title}")
+        say(f"{name:<18} {load_protocol(name).title}")
 
 
 def courses() -> None:
@@ -20,7 +20,7 @@ def courses() -> None:
     from protocols.load import load_course, shipped_courses
 
     for name in shipped_courses():
-        say(f"{name:<16} {load_course(name).title}")
+        say(f"{name:<18} {load_course(name).title}")
 
 
 def show(
