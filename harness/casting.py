@@ -1,6 +1,7 @@
 """Who takes part in one session: the person, and whoever else the protocol names."""
 
 from dataclasses import replace
+from pathlib import Path
 
 from harness.lap import Cast
 from harness.model import make_model
@@ -13,6 +14,7 @@ from participants.registry import make_demonstrator, make_driver, make_impaired,
 from participants.setup import DemonstratorSetup, DriverSetup, ImpairmentSetup, RespondentSetup
 from participants.survey import Question, Respondent
 from protocols.instrument import Instrument, Item
+from protocols.record.rows import participant_id
 
 
 def rehearse(plan: Plan) -> None:
@@ -51,10 +53,11 @@ def cast(plan: Plan, number: int, person: Person) -> Cast:
         rng=stream(seed, number, "demonstrator"),
         options=cohort.demonstrator.options,
     )
+    words = {"participant": participant_id(number), "folder": str(study.folder or Path())}
     return Cast(
         driver=_impaired(plan, number, person, make_driver(cohort.driver.use, driver)),
         demonstrator=make_demonstrator(cohort.demonstrator.use, demonstrator),
-        model=make_model(study.protocol.model),
+        model=make_model(study.protocol.model, words),
     )
 
 

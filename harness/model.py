@@ -1,5 +1,6 @@
 """The learning assistant a protocol names, and what of it goes into the record."""
 
+from collections.abc import Mapping
 from importlib import import_module
 from typing import Any
 
@@ -9,11 +10,19 @@ from protocols.errors import InputError
 from protocols.study import ModelChoice
 
 
-def make_model(choice: ModelChoice) -> Assistant:
+def make_model(choice: ModelChoice, words: Mapping[str, str] | None = None) -> Assistant:
     """Return the assistant that learns in a study.
 
     Somebody else's is named by a dotted path ``package.module:factory``; the factory takes the
     protocol's options as keyword arguments.
+
+    Parameters
+    ----------
+    choice
+        As the protocol has it.
+    words
+        What stands for a word in braces in an option that is text: ``{participant}`` for the
+        participant's id, ``{folder}`` for the folder where relative paths start.
 
     Raises
     ------
@@ -24,7 +33,7 @@ def make_model(choice: ModelChoice) -> Assistant:
         return LADAssistant(choice.parameters)
     module, _, name = choice.use.partition(":")
     try:
-        made = getattr(import_module(module), name)(**choice.options)
+        made = getattr(import_module(module), name)(**_filled_in(choice.options, words or {}))
     except Exception as error:  # somebody's code may fail in any way
         reason = f"{type(error).__name__}: {error}"
         raise InputError(f"model {choice.use!r}: cannot be made ({reason})") from error
@@ -33,6 +42,14 @@ def make_model(choice: ModelChoice) -> Assistant:
         raise InputError(f"model {choice.use!r}: is no assistant, it lacks {', '.join(missing)}")
     assistant: Assistant = made
     return assistant
+
+
+def _filled_in(options: Mapping[str, Any], words: Mapping[str, str]) -> dict[str, Any]:
+    filled = dict(options)
+    for name, value in options.items():
+        for word, said in words.items() if isinstance(value, str) else ():
+            filled[name] = filled[name].replace(f"{{{word}}}", said)
+    return filled
 
 
 def saved(model: Assistant) -> bytes | None:

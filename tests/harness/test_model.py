@@ -1,5 +1,6 @@
 """The learning assistant a protocol names."""
 
+import numpy as np
 import pytest
 
 from harness.model import basis_vectors, make_model, saved
@@ -18,8 +19,6 @@ def test_the_shipped_model_gets_the_protocols_parameters():
 
 def test_what_is_saved_is_the_model():
     """The bytes in the record rebuild the model."""
-    import numpy as np
-
     model = make_model(ModelChoice())
     model.start_lap()
     model.assist(np.zeros(19))
@@ -46,3 +45,22 @@ def test_a_model_that_cannot_be_made_is_said_in_one_line(use, options, part):
         make_model(ModelChoice(use=use, options=options))
     assert part in str(fault.value)
     assert "\n" not in str(fault.value)
+
+
+def test_a_study_can_start_with_models_that_were_taught(tmp_path):
+    """`lad.trained:load` gives each participant the model of that participant's name."""
+    model = make_model(ModelChoice())
+    for name, v in (("P0001", 0.1), ("P0002", 0.4)):
+        model.start_lap()
+        model.assist(np.zeros(19))
+        model.learn(True, Command(v, -0.5))
+        model.save(tmp_path / f"{name}.npz")
+    options = {"path": "{folder}/{participant}.npz"}
+    choice = ModelChoice(use="lad.trained:load", options=options)
+    one, two = (
+        make_model(choice, {"folder": str(tmp_path), "participant": name})
+        for name in ("P0001", "P0002")
+    )
+    assert one.assist(np.zeros(19)).mean.v < two.assist(np.zeros(19)).mean.v
+    with pytest.raises(InputError, match="P0003"):
+        make_model(choice, {"folder": str(tmp_path), "participant": "P0003"})

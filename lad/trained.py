@@ -1,0 +1,22 @@
+"""A model that somebody else's laps have taught, for a protocol that starts with one."""
+
+from lad.lad_assistant import LADAssistant
+
+
+def load(path: str) -> LADAssistant:
+    """Return the shipped model as it was saved.
+
+    A protocol names it by its dotted path, the file by participant:
+    ``{use: "lad.trained:load", options: {path: "{folder}/sessions/{participant}/model.npz"}}``.
+
+    Parameters
+    ----------
+    path
+        Of a file that ``LADAssistant.save`` or a study has written.
+
+    Raises
+    ------
+    ModelFileError
+        When it cannot be read or is none; names the path.
+    """
+    return LADAssistant.load(path)
