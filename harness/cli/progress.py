@@ -13,12 +13,12 @@ LINES = 20
 
 
 @contextmanager
-def counted_sessions() -> Iterator[Callable[[int, int], None]]:
+def counted_sessions(label: str = "Sessions") -> Iterator[Callable[[int, int], None]]:
     """Show how many sessions have ended; yield the function to tell it and how many are planned.
 
     Nothing is shown before it is first told something, so that an input fault stays one line.
     """
-    columns = (TextColumn("Sessions"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    columns = (TextColumn(label), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     pace_column = TextColumn("{task.fields[pace]}")
     drawn = ERR.is_terminal
     progress = Progress(*columns, pace_column, console=ERR, disable=not drawn)
@@ -28,13 +28,13 @@ def counted_sessions() -> Iterator[Callable[[int, int], None]]:
         nonlocal before
         if not progress.tasks:
             before = ended
-            progress.add_task("Sessions", total=planned, completed=ended, pace="")
+            progress.add_task(label, total=planned, completed=ended, pace="")
             progress.start()
         task = progress.tasks[0]
         pace = pace_of(ended - before, planned - ended, task.elapsed or 0.0)
         progress.update(task.id, completed=ended, pace=pace)
         if not drawn and (ended == planned or ended % max(1, planned // LINES) == 0):
-            complain(f"Sessions {ended}/{planned}  {pace}".rstrip())
+            complain(f"{label} {ended}/{planned}  {pace}".rstrip())
 
     try:
         yield tell

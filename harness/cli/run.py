@@ -1,23 +1,15 @@
 """`lad-study run`: a study from its protocol to its report."""
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from harness.cli.console import complain, progress_line, say
-from protocols.errors import InputError
+from harness.cli.options import check_least, cores
 
 if TYPE_CHECKING:
     from harness.runner import Outcome
-
-
-def _cores() -> int:
-    """Return how many cores this process may use: a batch system may allow fewer than there are."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def run(
@@ -34,7 +26,7 @@ def run(
     ] = None,
     jobs: Annotated[
         int, typer.Option(help="Processes, 1 or more.", show_default="all cores")
-    ] = _cores(),
+    ] = cores(),
     scheduler: Annotated[
         str | None,
         typer.Option(metavar="ADDRESS", help="Run on a Dask cluster, e.g. tcp://host:8786."),
@@ -54,8 +46,8 @@ def run(
 
     Example: lad-study run four-lap --participants 24 --seed 3 --out studies/pilot
     """
-    _check("--seed", seed, 0)
-    _check("--jobs", jobs, 1)
+    check_least("--seed", seed, 0)
+    check_least("--jobs", jobs, 1)
     folder, outcome = _run(
         protocol, participants, seed, out, jobs, scheduler, course, retry_failed=retry_failed
     )
@@ -68,11 +60,6 @@ def run(
         complain(_failures(folder, outcome))
         return 1
     return 0
-
-
-def _check(option: str, value: int, least: int) -> None:
-    if value < least:
-        raise InputError(f"{option}: {value} is out of range; allowed: {least} or more")
 
 
 def _run(

@@ -1,0 +1,86 @@
+"""`lad-study reproduce`: the paper's experiments, and one page that holds them against it."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from harness.cli.console import complain, progress_line, say
+from harness.cli.options import check_least, cores
+from protocols.errors import InputError
+
+if TYPE_CHECKING:
+    from analysis.reproduction.write import Further
+    from protocols.course.schema import Course
+
+
+def reproduce(
+    seed: Annotated[int, typer.Option(help="0 or more. Same seed, same bytes.")] = 0,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Where to.  [default: reproductions/seedSEED]"),
+    ] = None,
+    jobs: Annotated[
+        int, typer.Option(help="Processes, 1 or more.", show_default="all cores")
+    ] = cores(),
+    full: Annotated[
+        bool, typer.Option("--full", help="Also robustness, baselines and other courses.")
+    ] = False,
+    course: Annotated[
+        str | None,
+        typer.Option(metavar="FILE", help="With --full: a further course, a name or a file."),
+    ] = None,
+) -> int:
+    """Run the paper's experiments, and hold them against its numbers.
+
+    Writes reproduction.html (one page), .md and .json (one row per quantity, with a verdict where
+    a tolerance was declared). A run that was stopped goes on where it was when the same command is
+    given again.
+
+    Example: lad-study reproduce --seed 1 --out reproductions/one
+    """
+    check_least("--seed", seed, 0)
+    check_least("--jobs", jobs, 1)
+    if course is not None and not full:
+        raise InputError("--course: given without --full; allowed: only with --full")
+    return _reproduce(out or Path("reproductions") / f"seed{seed}", seed, jobs, course, full=full)
+
+
+def _reproduce(folder: Path, seed: int, jobs: int, course: str | None, *, full: bool) -> int:
+    from harness.crew import get_ready
+
+    get_ready()  # first: workers start while this process reads the protocols
+    from harness.cli.progress import counted_sessions
+    from harness.reproduction.studies import experiments, run_experiments
+    from protocols.load import load_course
+
+    chosen = None if course is None else load_course(course)
+    planned = experiments(folder, seed)
+    failures = run_experiments(folder, planned, jobs, counted_sessions)
+    for line in failures:
+        complain(line)
+    if failures:
+        return 1
+    further = _run_full(seed, folder, jobs, chosen) if full else None
+    _write(folder, jobs, further)
+    return 0
+
+
+def _run_full(seed: int, folder: Path, jobs: int, course: "Course | None") -> "Further":
+    from analysis.reproduction.full import full_sections
+
+    from harness.reproduction.full import run_full
+
+    with progress_line() as tell:
+        run_full(seed, folder, jobs, course, tell)
+    return full_sections
+
+
+def _write(folder: Path, jobs: int, further: "Further | None") -> None:
+    from analysis.reproduction.write import write_reproduction
+    from harness.cli.rows import print_rows
+
+    with progress_line() as tell:
+        page, rows = write_reproduction(folder, jobs, tell, further)
+    print_rows(rows)
+    say(f"Page: {page}")
