@@ -1,5 +1,6 @@
 """`lad-study reproduce`: the paper's experiments, and one page that holds them against it."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -56,31 +57,44 @@ def _reproduce(folder: Path, seed: int, jobs: int, course: str | None, *, full: 
 
     chosen = None if course is None else load_course(course)
     planned = experiments(folder, seed)
+    further = _further_experiments(folder, seed, chosen) if full else ()
     failures = run_experiments(folder, planned, jobs, counted_sessions)
+    if further and not failures:
+        failures = _run_further(further, jobs)
     for line in failures:
         complain(line)
     if failures:
         return 1
-    further = _run_full(seed, folder, jobs, chosen) if full else None
-    _write(folder, jobs, further)
+    _write(folder, jobs, full=full)
     return 0
 
 
-def _run_full(seed: int, folder: Path, jobs: int, course: "Course | None") -> "Further":
-    from analysis.reproduction.full import full_sections
+def _further_experiments(
+    folder: Path, seed: int, course: "Course | None"
+) -> "tuple[Experiment, ...]":
+    from harness.reproduction.full import full_experiments
 
+    return full_experiments(folder, seed, course)
+
+
+def _run_further(planned: "Sequence[Experiment]", jobs: int) -> tuple[str, ...]:
+    from harness.cli.progress import counted_sessions
     from harness.reproduction.full import run_full
 
-    with progress_line() as tell:
-        run_full(seed, folder, jobs, course, tell)
-    return full_sections
+    return run_full(planned, jobs, counted_sessions, complain)
 
 
-def _write(folder: Path, jobs: int, further: "Further | None") -> None:
+def _write(folder: Path, jobs: int, *, full: bool) -> None:
     from analysis.reproduction.write import write_reproduction
     from harness.cli.rows import print_rows
 
     with progress_line() as tell:
-        page, rows = write_reproduction(folder, jobs, tell, further)
+        page, rows = write_reproduction(folder, jobs, tell, _full_sections() if full else None)
     print_rows(rows)
     say(f"Page: {page}")
+
+
+def _full_sections() -> "Further":
+    from analysis.reproduction.full import full_sections
+
+    return full_sections

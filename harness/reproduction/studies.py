@@ -91,12 +91,12 @@ def run_experiments(
 
 
 def run_experiment(experiment: Experiment, jobs: int, progress: Progress) -> str | None:
-    """Run what is missing of a study; return a line when sessions failed.
+    """Run what is missing of a study; return a line that says so when sessions failed.
 
     Raises
     ------
     InputError
-        When somebody the protocol names cannot be made, or the folder holds another study.
+        When its folder holds something else.
     OSError
         When something cannot be written; what was finished is kept.
     """
