@@ -12,6 +12,7 @@ from protocols.errors import InputError
 
 if TYPE_CHECKING:
     from analysis.reproduction.write import Further
+    from harness.reproduction.studies import Experiment
     from protocols.course.schema import Course
 
 
