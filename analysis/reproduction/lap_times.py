@@ -63,16 +63,16 @@ def _against_demonstrator(
     if condition == DEMONSTRATOR:
         return nothing
     difference = wide[condition] - wide[DEMONSTRATOR]
-    behind, same = mean_difference(difference), paired_tost(difference, MARGIN)
+    about, same = mean_difference(difference), paired_tost(difference, MARGIN)
     ks = two_sample_ks(
         values(frames, "lap_time_s", condition),
         values(frames, "lap_time_s", DEMONSTRATOR),
         same_people=False,
     )
     return nothing | {
-        "behind_s": behind.estimate,
-        "behind_low": behind.low,
-        "behind_high": behind.high,
+        "behind_s": describe(difference).mean,
+        "behind_low": about.low,
+        "behind_high": about.high,
         "ks": ks.estimate,
         "ks_p": ks.p,
         "tost_low": same.low,

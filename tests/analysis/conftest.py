@@ -206,6 +206,16 @@ def study(tmp_path_factory: pytest.TempPathFactory) -> Study:
     return write_study(tmp_path_factory.mktemp("made-up") / "study", MadeUp(participants=6))
 
 
+@pytest.fixture(scope="session")
+def write_made_up() -> Callable[..., Study]:
+    """Return a function that writes a made-up study of some people into a folder."""
+
+    def write(folder: Path, protocol: str, participants: int) -> Study:
+        return write_study(folder, MadeUp(participants=participants), protocol)
+
+    return write
+
+
 @pytest.fixture
 def make_study(tmp_path: Path) -> Callable[..., Study]:
     """Return a function that writes a made-up study with events."""
