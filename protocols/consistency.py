@@ -13,15 +13,24 @@ def check_consistency(
     conditions: Mapping[str, Condition],
     laps: tuple[PlannedLap, ...],
     analyses: tuple[Comparison, ...],
+    *,
+    taught: bool = False,
 ) -> None:
     """Refuse a protocol whose parts contradict one another.
+
+    Parameters
+    ----------
+    conditions, laps, analyses
+        As the protocol has them.
+    taught
+        Whether the model may have been taught before the study.
 
     Raises
     ------
     InconsistentError
         With every fault found and its location in the file.
     """
-    faults = (*_lap_faults(conditions, laps), *_analysis_faults(conditions, laps, analyses))
+    faults = (*_lap_faults(conditions, laps, taught), *_analysis_faults(conditions, laps, analyses))
     if faults:
         raise InconsistentError(faults)
 
@@ -31,9 +40,9 @@ def _unknown_condition(given: str, conditions: Mapping[str, Condition]) -> str:
 
 
 def _lap_faults(
-    conditions: Mapping[str, Condition], laps: tuple[PlannedLap, ...]
+    conditions: Mapping[str, Condition], laps: tuple[PlannedLap, ...], taught: bool
 ) -> Iterator[Fault]:
-    trained = False
+    trained = taught
     for i, lap in enumerate(laps):
         condition = conditions.get(lap.condition)
         if condition is None:

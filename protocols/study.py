@@ -86,7 +86,8 @@ class StudyProtocol(Part):
 
     @model_validator(mode="after")
     def _parts_agree(self) -> Self:
-        check_consistency(self.conditions, self.laps, self.analyses)
+        taught = self.model.use != "lad"  # what a model of one's own knows is not ours to say
+        check_consistency(self.conditions, self.laps, self.analyses, taught=taught)
         return self
 
     def condition_of(self, lap: int) -> Condition:
