@@ -2,7 +2,7 @@
 
     python bench/predict_cohort.py                        2,400 people a cell: half a day and more
     python bench/predict_cohort.py --people 144 --jobs 2  what docs/cohort.md shows, half an hour
-    python bench/predict_cohort.py --people 144 --only-centre
+    python bench/predict_cohort.py --people 96 --centre studies/four-lap-seed0
 
 A cell's people (bench/cohort/cells.json) drive the shipped study, all five laps through the
 session everybody's laps go through. 200 studies of twelve are drawn from them. With 2,400 people
@@ -21,7 +21,7 @@ import joblib
 import numpy as np
 import pandas as pd
 from cohort.grid import Cell, cells, load
-from cohort.sessions import laps_of
+from cohort.sessions import laps_of, laps_of_study
 from cohort.studies import CONDITIONS, PUBLISHED, as_far_out, draw_studies, predict, table
 
 STUDIES, SIZE, SEED = 200, 12, 1
@@ -36,11 +36,16 @@ def main() -> int:
     parser.add_argument("--people", type=int, default=FULL, help="people a cell")
     parser.add_argument("--keep", type=Path, default=Path("studies/cohort-predictions"))
     parser.add_argument("--only-centre", action="store_true")
+    parser.add_argument(
+        "--centre", type=Path, metavar="STUDY", help="a four-lap study: its people are the centre's"
+    )
     parser.add_argument("--csv", type=Path, help="where to write the predictions")
     parser.add_argument("--jobs", type=int, default=1, help="cells that drive at the same time")
     options = parser.parse_args()
     solved, rows = load(), []
     asked = list(cells())[: 1 if options.only_centre else None]
+    if options.centre:
+        rows += report(asked.pop(0), laps_of_study(options.centre))
     crew = joblib.Parallel(n_jobs=options.jobs, return_as="generator", pre_dispatch=options.jobs)
     pools = crew(
         joblib.delayed(laps_of)(

@@ -13,6 +13,7 @@ from harness.world import BulletWorld
 from participants.population import Marginal
 from protocols.cohort import Cohort
 from protocols.load import resolve_study
+from protocols.record.reader import open_study
 
 SEED = 56_100
 """Of everybody in the pools: the same people, cell by cell, as far as their traits are the same."""
@@ -59,6 +60,23 @@ def laps_of(
         known.to_csv(keep, index=False)
         tell(f"{cell.name}: {known['number'].nunique()} people")
     return known[known["number"] <= people]
+
+
+def laps_of_study(folder: Path) -> pd.DataFrame:
+    """Return every lap of a study of the shipped cohort: the people of the grid's centre.
+
+    Parameters
+    ----------
+    folder
+        A study directory of ``four-lap``, with its own traits for nobody.
+    """
+    study = open_study(folder)
+    assert study.protocol == resolve_study("four-lap").protocol.model_copy(
+        update={"cohort": study.protocol.cohort}
+    )
+    assert not study.protocol.cohort.traits
+    laps = study.laps.to_pandas()[list(KEPT)]
+    return laps.assign(number=laps["participant"].str[1:].astype(int))
 
 
 def _rows(plan: Plan, numbers: list[int]) -> Iterator[dict[str, object]]:
