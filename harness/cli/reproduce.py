@@ -90,12 +90,15 @@ def _write(folder: Path, jobs: int, *, full: bool) -> None:
     from harness.cli.rows import print_rows
 
     with progress_line() as tell:
-        page, rows = write_reproduction(folder, jobs, tell, _full_sections() if full else None)
+        further = _full_sections(jobs, tell) if full else None
+        page, rows = write_reproduction(folder, jobs, tell, further)
     print_rows(rows)
     say(f"Page: {page}")
 
 
-def _full_sections() -> "Further":
+def _full_sections(jobs: int, tell: "Callable[[str], None]") -> "Further":
+    from functools import partial
+
     from analysis.reproduction.full import full_sections
 
-    return full_sections
+    return partial(full_sections, jobs=jobs, say=tell)

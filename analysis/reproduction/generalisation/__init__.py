@@ -1,0 +1,1 @@
+"""Whether a model taught on one course helps on another, and where it should not."""

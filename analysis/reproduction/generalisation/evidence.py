@@ -1,0 +1,109 @@
+"""Studies on other courses, driven with the models that laps on the default course have taught."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+
+from analysis.frames import StudyFrames, as_frame, study_frames
+from analysis.measures.streams import helped
+from analysis.outcomes import by_participant
+from analysis.reproduction.evidence import STUDIES
+from analysis.reproduction.robustness.evidence import ROBUSTNESS
+from protocols.course.centreline import Centreline
+from protocols.errors import InputError
+from protocols.record.reader import open_study
+from protocols.variants import DEFAULT
+
+GENERALISATION = "generalisation"
+"""The folder of these studies, in the one of a reproduction's studies: one by course."""
+
+
+@dataclass(frozen=True, slots=True)
+class Elsewhere:
+    """A course, and how the laps on it went.
+
+    Attributes
+    ----------
+    course
+        Its name.
+    kinds
+        Its kinds of sections in the order of the first of each.
+    laps
+        Lap times, s: rows replicates, columns conditions; NaN for an unfinished lap.
+    shares
+        One row per replicate and kind of section: ``assisted`` and ``would``, the shares of steps
+        in which the model helped, and in which the demonstrator would have.
+    taught_here
+        Whether it is the course that the models were taught on.
+    """
+
+    course: str
+    kinds: tuple[str, ...]
+    laps: pd.DataFrame
+    shares: pd.DataFrame
+    taught_here: bool = False
+
+
+def gather(folder: Path) -> tuple[Elsewhere, ...]:
+    """Read the study of every course: first the one that the models were taught on.
+
+    Its laps with help are those of the very models that drive on the others.
+
+    Raises
+    ------
+    InputError
+        When there is no such study, or one cannot be used.
+    """
+    studies = folder / STUDIES
+    home = study_frames(open_study(studies / ROBUSTNESS / DEFAULT.name))
+    alone = by_participant(study_frames(open_study(studies / "rd-laps")), "lap_time_s")
+    times = by_participant(home, "lap_time_s")
+    laps = alone[["baseline", "limited"]].assign(
+        demonstrator=times["demonstrator"], model=times["model after 3"]
+    )
+    there = sorted(path for path in (studies / GENERALISATION).glob("*") if path.is_dir())
+    if not there:
+        raise InputError(f"{studies / GENERALISATION}: no study in it")
+    first = Elsewhere(
+        home.study.course.name, _kinds(home), laps, _shares(home, "model after 3"), taught_here=True
+    )
+    return (first, *(_elsewhere(study_frames(open_study(path))) for path in there))
+
+
+def _elsewhere(frames: StudyFrames) -> Elsewhere:
+    return Elsewhere(
+        frames.study.course.name,
+        _kinds(frames),
+        by_participant(frames, "lap_time_s"),
+        _shares(frames, "model"),
+    )
+
+
+def _kinds(frames: StudyFrames) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(s.kind for s in Centreline(frames.study.course).sections))
+
+
+def _shares(frames: StudyFrames, condition: str) -> pd.DataFrame:
+    laps = frames.laps[frames.laps["condition"] == condition]
+    rows = (
+        row
+        for participant, lap in zip(laps["participant"], laps["lap"], strict=True)
+        for row in _lap_shares(frames, participant, lap)
+    )
+    return pd.DataFrame(rows, columns=["participant", "kind", "steps", "assisted", "would"])
+
+
+def _lap_shares(frames: StudyFrames, participant: str, lap: int) -> Iterable[dict[str, object]]:
+    steps = as_frame(frames.study.steps(participant, lap))
+    on = helped(steps)
+    known = steps.assign(on=False if on is None else on, would=steps["h_would"] > 0)
+    for kind, here in known.groupby("section_kind", sort=False, observed=True):
+        yield {
+            "participant": participant,
+            "kind": str(kind),
+            "steps": len(here),
+            "assisted": float(here["on"].mean()),
+            "would": float(here["would"].mean()),
+        }

@@ -1,0 +1,94 @@
+"""What the comparison of variants stands on: their lap times, and their accuracy taught again."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from importlib import import_module
+from pathlib import Path
+
+import pandas as pd
+
+from analysis.frames import study_frames
+from analysis.outcomes import by_participant
+from analysis.randomness import generator
+from analysis.reproduction.accuracy import accuracy_table
+from analysis.reproduction.demonstrations import Demonstration, demonstrations
+from analysis.reproduction.evidence import PERMUTATIONS, STUDIES
+from analysis.reproduction.teaching import MakeModel, permutations, teach_in_orders
+from lad.lad_assistant import LADAssistant
+from protocols.record.reader import open_study
+from protocols.study import ModelChoice
+from protocols.variants import VARIANTS, Variant
+
+ROBUSTNESS = "robustness"
+"""The folder of the variants' studies, in the one of a reproduction's studies."""
+
+Say = Callable[[str], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Tested:
+    """A variant and what came of it.
+
+    Attributes
+    ----------
+    variant
+        Which.
+    accuracy
+        One row per random order and lap; see ``analysis.reproduction.accuracy``.
+    laps
+        Lap times, s: rows replicates, columns conditions; NaN for an unfinished lap.
+    """
+
+    variant: Variant
+    accuracy: pd.DataFrame
+    laps: pd.DataFrame
+
+
+def gather(folder: Path, jobs: int, say: Say) -> tuple[Tested, ...]:
+    """Read every variant's study, and teach it the recorded demonstrations in random orders.
+
+    All variants are taught in the same orders, and their replicates drove with the same noise:
+    differences are to be taken order by order and replicate by replicate.
+
+    Parameters
+    ----------
+    folder
+        The reproduction's.
+    jobs
+        Processes that teach, 1 or more.
+    say
+        Told in a few words what is being done.
+
+    Raises
+    ------
+    InputError
+        When a study is not there or cannot be used.
+    """
+    recorded = open_study(folder / STUDIES / "rd-accuracy")
+    taught = demonstrations(recorded)
+    orders = permutations(len(taught), PERMUTATIONS, generator(recorded, "permutations"))
+    tested: list[Tested] = []
+    for i, variant in enumerate(VARIANTS, start=1):
+        say(f"Teaching variants in random orders {i}/{len(VARIANTS)}")
+        study = study_frames(open_study(folder / STUDIES / ROBUSTNESS / variant.name))
+        if variant.same_probabilities:
+            accuracy = tested[0].accuracy
+        else:
+            runs = teach_in_orders(maker(variant.model), taught, orders, jobs)
+            accuracy = accuracy_table(runs)
+        tested.append(Tested(variant, accuracy, by_participant(study, "lap_time_s")))
+    return tuple(tested)
+
+
+def recorded_demonstrations(folder: Path) -> tuple[Demonstration, ...]:
+    """Return the demonstrations that variants are taught."""
+    return demonstrations(open_study(folder / STUDIES / "rd-accuracy"))
+
+
+def maker(choice: ModelChoice) -> MakeModel:
+    """Return what makes a fresh model as a protocol names it; importable in another process."""
+    if choice.use == "lad":
+        return partial(LADAssistant, choice.parameters)
+    module, _, name = choice.use.partition(":")
+    return partial(getattr(import_module(module), name), **choice.options)
