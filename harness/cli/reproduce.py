@@ -1,6 +1,6 @@
 """`lad-study reproduce`: the paper's experiments, and one page that holds them against it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
