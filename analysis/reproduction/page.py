@@ -106,4 +106,5 @@ def _table(section: str, rows: Sequence[Row]) -> Table:
         Shown("verdict", lambda r: SAID[r["verdict"]] or NOTHING, words=True),
     ]
     caption = f"{section}. {plural(len(rows), 'quantity', 'quantities')}."
-    return table(f"rows_{name}", caption, frame, columns)
+    beside_the_paper = any(row.paper is not None or row.tolerance is not None for row in rows)
+    return table(f"rows_{name}", caption, frame, columns, folded=not beside_the_paper)

@@ -27,7 +27,7 @@ Say = Callable[[str], None]
 
 
 @dataclass(frozen=True, slots=True)
-class Tested:
+class Tried:
     """A variant and what came of it.
 
     Attributes
@@ -45,7 +45,7 @@ class Tested:
     laps: pd.DataFrame
 
 
-def gather(folder: Path, jobs: int, say: Say) -> tuple[Tested, ...]:
+def gather(folder: Path, jobs: int, say: Say) -> tuple[Tried, ...]:
     """Read every variant's study, and teach it the recorded demonstrations in random orders.
 
     All variants are taught in the same orders, and their replicates drove with the same noise:
@@ -68,7 +68,7 @@ def gather(folder: Path, jobs: int, say: Say) -> tuple[Tested, ...]:
     recorded = open_study(folder / STUDIES / "rd-accuracy")
     taught = demonstrations(recorded)
     orders = permutations(len(taught), PERMUTATIONS, generator(recorded, "permutations"))
-    tested: list[Tested] = []
+    tested: list[Tried] = []
     for i, variant in enumerate(VARIANTS, start=1):
         say(f"Teaching variants in random orders {i}/{len(VARIANTS)}")
         study = study_frames(open_study(folder / STUDIES / ROBUSTNESS / variant.name))
@@ -77,7 +77,7 @@ def gather(folder: Path, jobs: int, say: Say) -> tuple[Tested, ...]:
         else:
             runs = teach_in_orders(maker(variant.model), taught, orders, jobs)
             accuracy = accuracy_table(runs)
-        tested.append(Tested(variant, accuracy, by_participant(study, "lap_time_s")))
+        tested.append(Tried(variant, accuracy, by_participant(study, "lap_time_s")))
     return tuple(tested)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from analysis.reproduction.accuracy import spread
-from analysis.reproduction.robustness.evidence import Tested
+from analysis.reproduction.robustness.evidence import Tried
 from analysis.stats.describe import describe
 from analysis.stats.mean_difference import mean_difference
 from analysis.stats.samples import Sample
@@ -15,7 +15,7 @@ DEMONSTRATIONS = (1, 3)
 """After how many demonstrations laps were helped by a variant."""
 
 
-def variant_table(tested: Sequence[Tested]) -> pd.DataFrame:
+def variant_table(tested: Sequence[Tried]) -> pd.DataFrame:
     """Return one row per variant.
 
     Returns
@@ -33,7 +33,7 @@ def variant_table(tested: Sequence[Tested]) -> pd.DataFrame:
     return pd.DataFrame([_row(one, tested[0]) for one in tested])
 
 
-def _row(one: Tested, default: Tested) -> dict[str, object]:
+def _row(one: Tried, default: Tried) -> dict[str, object]:
     variant = one.variant
     row: dict[str, object] = {
         "name": variant.name,
@@ -88,6 +88,6 @@ def _change(name: str, values: pd.Series, reference: pd.Series) -> dict[str, flo
     return {name: found.estimate, f"{name}_low": found.low, f"{name}_high": found.high}
 
 
-def _auc_after_1(one: Tested) -> pd.Series:
+def _auc_after_1(one: Tried) -> pd.Series:
     after_1 = one.accuracy[one.accuracy["demonstrations"] == 1]
     return after_1.set_index("run")["auc"]
