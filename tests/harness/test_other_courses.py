@@ -1,6 +1,7 @@
 """The courses beside the default one are what they say, and can be driven."""
 
 import importlib.util
+import itertools
 import math
 import sys
 from pathlib import Path
@@ -9,10 +10,18 @@ import numpy as np
 import pytest
 from ruamel.yaml import YAML
 
+from harness.laser import Laser
+from harness.plan import Plan
+from harness.session import Session
+from harness.world import BulletWorld
 from protocols.course.centreline import Centreline
 from protocols.course.obstacles import floor_plan, obstacle_boxes
 from protocols.course.schema import Course
 from protocols.load import load_course
+from protocols.pose import Pose
+from protocols.resolved import ResolvedStudy
+from protocols.study import StudyProtocol
+from protocols.wheelchair import LASER_AHEAD
 
 BENCH = Path(__file__).parents[2] / "bench"
 needs_checkout = pytest.mark.skipif(not BENCH.is_dir(), reason="needs the checkout")
@@ -66,6 +75,41 @@ def test_the_ward_has_every_kind_of_turn():
     assert all(turn < -60 for turn in sharp.values())
     assert all(-60 < turn < -20 for turn in soft.values())
     assert all(turn > 60 for turn in left.values())
+
+
+def _view(course, arc):
+    """Return the laser's segments from a place on the centreline."""
+    x, y, heading = Centreline(course).point(arc)
+    ahead = Pose(x + LASER_AHEAD * math.cos(heading), y + LASER_AHEAD * math.sin(heading), heading)
+    return Laser(obstacle_boxes(course), 180).scan(ahead, np.random.default_rng(0))[1]
+
+
+def test_lidar_tells_the_wards_turns_apart():
+    """Coming to turns of different kinds, the 15 segments differ by a lengthscale (2 m) in all."""
+    ward = load_course("ward-corridor")
+    turns = [s for s in Centreline(ward).sections if s.kind != "straight"]
+    views = {s.name: [_view(ward, s.start - back) for back in (0.1, 0.3, 0.5)] for s in turns}
+    kinds = {s.name: s.kind for s in turns}
+    for one, two in itertools.combinations(views, 2):
+        nearest = min(np.linalg.norm(a - b) for a in views[one] for b in views[two])
+        assert nearest > 2.0 or kinds[one] == kinds[two], (one, two, nearest)
+
+
+@pytest.mark.parametrize("driver", ["autonomous", "human"])
+@pytest.mark.parametrize("name", ["lab-office-mirror", "ward-corridor"])
+def test_both_kinds_of_driver_finish_a_lap(name, driver):
+    """Without limitation or help they reach the finish through every gate, touching nothing."""
+    protocol = StudyProtocol.model_validate(
+        {"name": "lap", "title": "A lap", "course": name, "conditions": {"baseline": {}},
+         "cohort": {"participants": 1, "driver": {"use": driver}},
+         "laps": [{"condition": "baseline", "time_limit_s": 90}]}
+    )  # fmt: skip
+    study = ResolvedStudy(protocol, load_course(name), ())
+    world = BulletWorld(study.course, laser=protocol.laser, period=protocol.control_period_s,
+                        start_noise=protocol.start_noise)  # fmt: skip
+    (lap,) = Session(Plan(study, 0), 1, world).run().laps
+    assert lap.row.completed
+    assert lap.row.collisions == 0
 
 
 @needs_checkout
