@@ -75,6 +75,12 @@ def test_the_model_must_have_learnt():
     assert list(_faults("limited", "helped")) == ["laps.1.condition"]
 
 
+def test_a_model_of_ones_own_may_know_something_beforehand():
+    """Only of the shipped one is it known that an untaught lap can have no help."""
+    study = _study("helped", model={"use": "lad.trained:load", "options": {"path": "m.npz"}})
+    assert [lap.condition for lap in study.laps] == ["helped"]
+
+
 def test_not_every_lap_may_be_practice():
     """A study without a lap to analyse is refused."""
     faults = _faults({"condition": "limited", "practice": True})
