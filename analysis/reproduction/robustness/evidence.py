@@ -1,17 +1,18 @@
 """What the comparison of variants stands on: their lap times, and their accuracy taught again."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
-from analysis.frames import study_frames
+from analysis.frames import StudyFrames, study_frames
 from analysis.outcomes import by_participant
 from analysis.randomness import generator
-from analysis.reproduction.accuracy import accuracy_table
+from analysis.reproduction.accuracy import UNDECIDED, accuracy_table
 from analysis.reproduction.demonstrations import Demonstration, demonstrations
 from analysis.reproduction.evidence import PERMUTATIONS, STUDIES
 from analysis.reproduction.teaching import MakeModel, permutations, teach_in_orders
@@ -22,6 +23,9 @@ from protocols.variants import VARIANTS, Variant
 
 ROBUSTNESS = "robustness"
 """The folder of the variants' studies, in the one of a reproduction's studies."""
+
+DEMONSTRATIONS = (1, 3)
+"""After how many demonstrations laps were helped by a variant."""
 
 Say = Callable[[str], None]
 
@@ -38,11 +42,14 @@ class Tried:
         One row per random order and lap; see ``analysis.reproduction.accuracy``.
     laps
         Lap times, s: rows replicates, columns conditions; NaN for an unfinished lap.
+    undecided
+        Share of steps with |p(h) - 0.5| < 0.001 in the laps of a condition, steps pooled.
     """
 
     variant: Variant
     accuracy: pd.DataFrame
     laps: pd.DataFrame
+    undecided: Mapping[str, float]
 
 
 def gather(folder: Path, jobs: int, say: Say) -> tuple[Tried, ...]:
@@ -77,8 +84,19 @@ def gather(folder: Path, jobs: int, say: Say) -> tuple[Tried, ...]:
         else:
             runs = teach_in_orders(maker(variant.model), taught, orders, jobs)
             accuracy = accuracy_table(runs)
-        tested.append(Tried(variant, accuracy, by_participant(study, "lap_time_s")))
+        shares = {f"model after {n}": _undecided(study, f"model after {n}") for n in DEMONSTRATIONS}
+        times = by_participant(study, "lap_time_s")
+        tested.append(Tried(variant, accuracy, times, shares))
     return tuple(tested)
+
+
+def _undecided(frames: StudyFrames, condition: str) -> float:
+    laps = frames.laps[frames.laps["condition"] == condition]
+    p = [
+        frames.study.steps(participant, lap, ["p_help"])["p_help"].to_numpy()
+        for participant, lap in zip(laps["participant"], laps["lap"], strict=True)
+    ]
+    return float((np.abs(np.concatenate(p) - 0.5) < UNDECIDED).mean()) if p else float("nan")
 
 
 def recorded_demonstrations(folder: Path) -> tuple[Demonstration, ...]:

@@ -53,6 +53,7 @@ def _rows(v: dict[str, Any]) -> Iterator[Row]:
         what = f"model after {lap[-1]}"
         yield row(f"rd lap {what}", "s", f"{lap}_mean", f"{lap}_n", ends(lap))
         yield row(f"rd lap {what} sd", "s", f"{lap}_sd", f"{lap}_n")
+        yield row(f"rd lap {what} undecided steps", "", f"{lap}_undecided", f"{lap}_n")
         if v["group"] != "default":
             change = f"d_{lap}"
             yield row(f"{what} minus default", "s", change, f"{lap}_n", ends(change))

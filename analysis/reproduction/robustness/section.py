@@ -6,7 +6,7 @@ from typing import Any
 import pandas as pd
 
 from analysis.report.blocks import Block, Paragraph, Picture, Section, Shown, Table, table
-from analysis.report.words import count, number, plural
+from analysis.report.words import count, number, percent, plural
 from analysis.reproduction.robustness.figure import robustness_figure
 
 
@@ -56,11 +56,11 @@ def _table(variants: pd.DataFrame) -> Table:
     return table(
         "robustness",
         "Medians over random orders: AUC after one demonstration, over the laps learnt from and "
-        "in the test lap; of the test lap RMSE, Brier score and the share of steps with "
-        "|p(h) - 0.5| < 0.001. Laps: mean (sd) after one and three demonstrations, s, and how "
-        "many replicates finished them. Cost: predicting and learning a step of a fourth "
-        "demonstration, measured on the machine that made this page; it alone is not the same "
-        "in another run.",
+        "in the test lap; of the test lap RMSE, Brier score and undecided steps, those with "
+        "|p(h) - 0.5| < 0.001. Laps: mean (sd) after one and three demonstrations, s, how many "
+        "replicates finished them, and undecided steps in them. Cost: predicting and learning a step "
+        "of a fourth demonstration, measured on the machine that made this page; it alone is not "
+        "the same in another run.",
         variants,
         _COLUMNS,
     )
@@ -82,10 +82,12 @@ _COLUMNS = [
     Shown("RMSE a_v, m/s", lambda r: number(r["rmse_v"], 3)),
     Shown("RMSE a_w, rad/s", lambda r: number(r["rmse_w"], 3)),
     Shown("Brier", lambda r: number(r["brier"], 4)),
-    Shown("undecided", lambda r: number(r["undecided"], 4)),
+    Shown("undecided", lambda r: percent(100 * r["undecided"], 1)),
     _lap(1),
     Shown("n", lambda r: count(r["lap_1_n"])),
+    Shown("undecided", lambda r: percent(100 * r["lap_1_undecided"], 1)),
     _lap(3),
     Shown("n", lambda r: count(r["lap_3_n"])),
+    Shown("undecided", lambda r: percent(100 * r["lap_3_undecided"], 1)),
     Shown("µs a step", lambda r: count(r["cost_us"])),
 ]

@@ -6,13 +6,10 @@ import numpy as np
 import pandas as pd
 
 from analysis.reproduction.accuracy import spread
-from analysis.reproduction.robustness.evidence import Tried
+from analysis.reproduction.robustness.evidence import DEMONSTRATIONS, Tried
 from analysis.stats.describe import describe
 from analysis.stats.mean_difference import mean_difference
 from analysis.stats.samples import Sample
-
-DEMONSTRATIONS = (1, 3)
-"""After how many demonstrations laps were helped by a variant."""
 
 
 def variant_table(tested: Sequence[Tried]) -> pd.DataFrame:
@@ -27,8 +24,8 @@ def variant_table(tested: Sequence[Tried]) -> pd.DataFrame:
         lap ``rmse_v`` (m/s), ``rmse_w`` (rad/s), ``brier`` and ``undecided``, the share of steps
         with |p(h) - 0.5| < 0.001. Of laps after 1 and 3 demonstrations: ``lap_n_mean``
         with its 95% interval, ``lap_n_sd``, ``lap_n_median`` (s), ``lap_n_n`` finished and
-        ``lap_n_unfinished``. Against the default, ``d_auc_1``, ``d_lap_1`` and
-        ``d_lap_3`` with ``_low`` and ``_high`` (95%).
+        ``lap_n_unfinished``, and ``lap_n_undecided``, the share of undecided steps. Against the
+        default, ``d_auc_1``, ``d_lap_1`` and ``d_lap_3`` with ``_low`` and ``_high`` (95%).
     """
     return pd.DataFrame([_row(one, tested[0]) for one in tested])
 
@@ -43,6 +40,7 @@ def _row(one: Tried, default: Tried) -> dict[str, object]:
     }
     for n in DEMONSTRATIONS:
         row |= _laps(f"lap_{n}", one.laps[f"model after {n}"])
+        row[f"lap_{n}_undecided"] = one.undecided[f"model after {n}"]
     row |= _change("d_auc_1", _auc_after_1(one), _auc_after_1(default))
     for n in DEMONSTRATIONS:
         condition = f"model after {n}"

@@ -21,7 +21,7 @@ from protocols.dump import to_yaml
 from protocols.errors import InputError
 from protocols.variants import VARIANTS
 
-SOME = tuple(v for v in VARIANTS if v.name in ("default", "threshold-0.3", "linear"))
+SOME = tuple(v for v in VARIANTS if v.name in ("default", "threshold-0.3", "memoryless"))
 
 
 @pytest.fixture(scope="module")
@@ -129,7 +129,7 @@ def _tried(variant, laps, aucs):
     )  # fmt: skip
     names = [f"P{i}" for i in range(len(laps))]
     frame = pd.DataFrame({"model after 1": laps, "model after 3": laps}, index=names)
-    return Tried(variant, accuracy, frame)
+    return Tried(variant, accuracy, frame, {"model after 1": 0.1, "model after 3": 0.0})
 
 
 def test_changes_are_paired_and_unfinished_laps_counted():
