@@ -59,8 +59,8 @@ def _table(variants: pd.DataFrame) -> Table:
         "in the test lap; of the test lap RMSE, Brier score and undecided steps, those with "
         "|p(h) - 0.5| < 0.001. Laps: mean (sd) after one and three demonstrations, s, how many "
         "replicates finished them, and undecided steps in them. Cost: predicting and learning a "
-        "step of a fourth demonstration, measured on the machine that made this page; it alone is not "
-        "the same in another run.",
+        "step of a fourth demonstration, measured on the machine that made this page; it alone "
+        "is not the same in another run.",
         variants,
         _COLUMNS,
     )
