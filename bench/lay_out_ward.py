@@ -25,6 +25,13 @@ HALF_WIDTH = 1.05
 """From the centreline to a wall's face, m."""
 
 THICKNESS = 0.1
+SCREEN_TO_PATH = 0.8
+"""Screens reach from the inside of a sharp turn this close to the centreline, m, as on the default
+course: whoever cut the corner would leave the centreline, and with it the section, behind."""
+
+FINISH_LEFT = 1.45
+"""From the centreline to the finish's left post, in the open day room, m."""
+
 RUN_IN, RUN_OUT = 1.1, 1.6
 """Floor behind the start and past the finish, m."""
 
@@ -129,7 +136,7 @@ def lay_out() -> dict:
     starts = [0.0, *(end for _, _, end in sections)]
     ends = {s[0]: span for s, span in zip(sections, itertools.pairwise(starts), strict=True)}
     free = _free(path, line, ends)
-    draft["walls"] = _walls(free)
+    draft["walls"] = [*_walls(free), *(_screen(path, ends, free, turn) for turn in _sharp())]
     draft["gates"] = _gates(path, ends, free)
     draft["furniture"] = [place(path, ends, piece) for piece in FURNITURE]
     return draft
@@ -165,24 +172,46 @@ def _walls(free: shapely.Polygon) -> list[dict]:
     ]  # fmt: skip
 
 
+def _sharp() -> list[Turn]:
+    return [turn for turn in TURNS if "soft" not in turn.name]
+
+
+def _screen(path: Centreline, ends: dict, free: shapely.Polygon, turn: Turn) -> dict:
+    """Return a screen from the wall on the inside of a turn towards its middle."""
+    at, inwards = _middle(path, ends, turn)
+    foot = at + (_to_wall(free, at, inwards) + 0.1) * inwards
+    return {
+        "name": f"screen at {turn.name}", "points": _points([at + SCREEN_TO_PATH * inwards, foot]),
+        "thickness": THICKNESS, "height": 1.6,
+    }  # fmt: skip
+
+
 def _gates(path: Centreline, ends: dict, free: shapely.Polygon) -> list[dict]:
-    """Return a gate from wall to wall in the middle of each sharp turn, and at the finish."""
-    places = {turn.name: sum(ends[turn.name]) / 2 for turn in TURNS if "soft" not in turn.name}
+    """Return a gate from wall to screen in each sharp turn, and one at the finish."""
     gates = []
-    for name, arc in {**places, "F": path.length}.items():
-        x, y, heading = path.point(arc)
-        left = np.array([-math.sin(heading), math.cos(heading)])
-        posts = [_towards(free, np.array([x, y]), side * left) for side in (LEFT, RIGHT)]
-        gates.append({"name": name, "left": _points(posts)[0], "right": _points(posts)[1]})
-    return gates
+    for turn in _sharp():
+        at, inwards = _middle(path, ends, turn)
+        outer = at - (_to_wall(free, at, -inwards) - THICKNESS / 2) * inwards
+        posts = _points([outer, at + SCREEN_TO_PATH * inwards])
+        left, right = posts if turn.degrees < 0 else reversed(posts)
+        gates.append({"name": turn.name, "left": left, "right": right})
+    x, y, heading = path.point(path.length)
+    at, across = np.array([x, y]), np.array([-math.sin(heading), math.cos(heading)])
+    left, right = _points([at + FINISH_LEFT * across, at - HALF_WIDTH * across])
+    return [*gates, {"name": "F", "left": left, "right": right}]
 
 
-def _towards(free: shapely.Polygon, at: np.ndarray, way_out: np.ndarray) -> np.ndarray:
-    """Return the wall's face in a direction, or where the corridor would end at a wide place."""
-    line = shapely.LineString([at, at + 3 * way_out])
-    hit = shapely.get_parts(line.intersection(free.boundary))
-    to_wall = min((shapely.Point(at).distance(point) for point in hit), default=math.inf)
-    return at + min(to_wall - THICKNESS / 2, 1.6) * way_out
+def _middle(path: Centreline, ends: dict, turn: Turn) -> tuple[np.ndarray, np.ndarray]:
+    """Return the middle of a turn, and the direction to its inside."""
+    x, y, heading = path.point(sum(ends[turn.name]) / 2)
+    left = np.array([-math.sin(heading), math.cos(heading)])
+    return np.array([x, y]), math.copysign(1.0, turn.degrees) * left
+
+
+def _to_wall(free: shapely.Polygon, at: np.ndarray, way_out: np.ndarray) -> float:
+    """Return the distance to the walls' middle line in a direction."""
+    hit = shapely.LineString([at, at + 4 * way_out]).intersection(free.boundary)
+    return min(shapely.Point(at).distance(point) for point in shapely.get_parts(hit))
 
 
 def _rotated(vector: np.ndarray, angle: float) -> np.ndarray:
