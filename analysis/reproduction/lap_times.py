@@ -23,7 +23,8 @@ def lap_time_table(frames: StudyFrames) -> pd.DataFrame:
     -------
     DataFrame
         ``condition``; ``n`` finished laps and ``unfinished`` ones; ``mean_s``, its 95% interval
-        ``low_s`` to ``high_s``, and ``sd_s``; ``speedup_percent`` over the limited laps (ratio of
+        ``low_s`` to ``high_s``, ``sd_s``, ``median_s`` and ``longest_s``; ``takeovers`` per lap,
+        mean; ``speedup_percent`` over the limited laps (ratio of
         means) with ``speedup_low`` and ``speedup_high``. Against the demonstrator's laps:
         ``behind_s`` with ``behind_low`` and ``behind_high``; ``ks`` and ``ks_p``, as the paper
         tested; the equivalence test's ``tost_low``, ``tost_high`` (90%) and ``tost_p``.
@@ -46,6 +47,9 @@ def _row(frames: StudyFrames, wide: pd.DataFrame, condition: str) -> dict[str, o
         "low_s": about.low,
         "high_s": about.high,
         "sd_s": found.sd,
+        "median_s": found.median,
+        "longest_s": found.high,
+        "takeovers": describe(values(frames, "interventions", condition)).mean,
         "speedup_percent": 100 * speedup.estimate,
         "speedup_low": 100 * speedup.low,
         "speedup_high": 100 * speedup.high,

@@ -41,8 +41,9 @@ def driver_section(evidence: Evidence) -> Section:
             ),
             table(
                 "driver_lap_times",
-                "Lap times by condition; 95% intervals. Speedup: limited over condition, ratio of "
-                f"means. Behind: condition minus {DEMONSTRATOR}, replicate by replicate, with the "
+                "Lap times by condition; 95% intervals. Takeovers: per lap, mean. Speedup: limited "
+                "over condition, ratio of means. "
+                f"Behind: condition minus {DEMONSTRATOR}, replicate by replicate, with the "
                 f"90% interval of the equivalence test (TOST, margin {MARGIN:g} s; p below .05 "
                 "says equivalent). KS: Kolmogorov-Smirnov against the demonstrator, as the paper "
                 "tested; with enough laps it rejects any difference, so it has no verdict.",
@@ -63,6 +64,9 @@ _COLUMNS = [
     Shown("unfinished", lambda r: count(r["unfinished"])),
     Shown("mean s", lambda r: with_interval(r["mean_s"], r["low_s"], r["high_s"])),
     Shown("sd s", lambda r: number(r["sd_s"], 2)),
+    Shown("median s", lambda r: number(r["median_s"])),
+    Shown("longest s", lambda r: number(r["longest_s"])),
+    Shown("takeovers", lambda r: number(r["takeovers"])),
     Shown("speedup", lambda r: percent(r["speedup_percent"])),
     Shown("behind s", _behind),
     Shown("TOST p", lambda r: p_value(r["tost_p"])),

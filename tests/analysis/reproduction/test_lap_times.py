@@ -19,7 +19,7 @@ TIMES = {
 def frames(times):
     """Return laps of some replicates, as an analysis meets them."""
     laps = [
-        {"participant": f"P{i:04d}", "condition": condition, "lap_time_s": time}
+        {"participant": f"P{i:04d}", "condition": condition, "lap_time_s": time, "interventions": i}
         for condition, column in times.items()
         for i, time in enumerate(column)
     ]
@@ -37,6 +37,7 @@ def test_means_count_finished_laps(table):
     row = table.loc["model after 1"]
     assert (row["n"], row["unfinished"], row["mean_s"]) == (2, 1, 44.5)
     assert table.loc["demonstrator", "sd_s"] == pytest.approx(1.0)
+    assert table.loc["limited", ["median_s", "longest_s", "takeovers"]].tolist() == [60, 62, 1]
     low, high = stats.t.interval(0.95, 2, 60.0, 2 / 3**0.5)
     assert table.loc["limited", ["low_s", "high_s"]].tolist() == pytest.approx([low, high])
 
