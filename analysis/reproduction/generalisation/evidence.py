@@ -8,9 +8,8 @@ import pandas as pd
 
 from analysis.frames import StudyFrames, as_frame, study_frames
 from analysis.measures.streams import helped
-from analysis.outcomes import by_participant
 from analysis.reproduction.evidence import STUDIES
-from analysis.reproduction.robustness.evidence import ROBUSTNESS
+from analysis.reproduction.robustness.evidence import ROBUSTNESS, lap_times
 from protocols.course.centreline import Centreline
 from protocols.errors import InputError
 from protocols.record.reader import open_study
@@ -31,19 +30,20 @@ class Elsewhere:
     kinds
         Its kinds of sections in the order of the first of each.
     laps
-        Lap times, s: rows replicates, columns conditions; NaN for an unfinished lap.
+        Lap times, s: rows replicates, columns conditions. An unfinished lap counts as the time it
+        was given.
+    finished
+        Of the same shape: whether the lap was finished.
     shares
         One row per replicate and kind of section: ``assisted`` and ``would``, the shares of steps
         in which the model helped, and in which the demonstrator would have.
-    taught_here
-        Whether it is the course that the models were taught on.
     """
 
     course: str
     kinds: tuple[str, ...]
     laps: pd.DataFrame
+    finished: pd.DataFrame
     shares: pd.DataFrame
-    taught_here: bool = False
 
 
 def gather(folder: Path) -> tuple[Elsewhere, ...]:
@@ -58,16 +58,16 @@ def gather(folder: Path) -> tuple[Elsewhere, ...]:
     """
     studies = folder / STUDIES
     home = study_frames(open_study(studies / ROBUSTNESS / DEFAULT.name))
-    alone = by_participant(study_frames(open_study(studies / "rd-laps")), "lap_time_s")
-    times = by_participant(home, "lap_time_s")
-    laps = alone[["baseline", "limited"]].assign(
-        demonstrator=times["demonstrator"], model=times["model after 3"]
+    alone = lap_times(study_frames(open_study(studies / "rd-laps")))
+    laps, finished = (
+        a[["baseline", "limited"]].assign(demonstrator=t["demonstrator"], model=t["model after 3"])
+        for a, t in zip(alone, lap_times(home), strict=True)
     )
     there = sorted(path for path in (studies / GENERALISATION).glob("*") if path.is_dir())
     if not there:
         raise InputError(f"{studies / GENERALISATION}: no study in it")
     first = Elsewhere(
-        home.study.course.name, _kinds(home), laps, _shares(home, "model after 3"), taught_here=True
+        home.study.course.name, _kinds(home), laps, finished, _shares(home, "model after 3")
     )
     return (first, *(_elsewhere(study_frames(open_study(path))) for path in there))
 
@@ -76,7 +76,7 @@ def _elsewhere(frames: StudyFrames) -> Elsewhere:
     return Elsewhere(
         frames.study.course.name,
         _kinds(frames),
-        by_participant(frames, "lap_time_s"),
+        *lap_times(frames),
         _shares(frames, "model"),
     )
 

@@ -43,7 +43,8 @@ def generalisation_section(laps: pd.DataFrame, shares: pd.DataFrame, taught_on: 
             ),
             table(
                 "generalisation",
-                "Lap times by course, s. Intervals are 95%. Differences replicate by replicate.",
+                "Lap times by course, s; an unfinished lap counts as the time it was given. 95% "
+                "intervals. Differences replicate by replicate.",
                 laps,
                 _LAPS,
             ),

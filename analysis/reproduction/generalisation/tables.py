@@ -18,9 +18,10 @@ def course_table(courses: Sequence[Elsewhere]) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        ``course``, ``condition``, ``n`` finished laps and ``unfinished`` ones, ``mean_s`` with its
-        95% interval ``low_s`` to ``high_s``, ``sd_s``, ``median_s``; of the model's laps, replicate
-        by replicate: ``over_limited_s`` and ``over_demonstrator_s`` with ``_low`` and ``_high``.
+        ``course``, ``condition``, ``n`` laps and how many of them are ``unfinished``, ``mean_s``
+        with its 95% interval ``low_s`` to ``high_s``, ``sd_s``, ``median_s``; of the model's
+        laps, replicate by replicate: ``over_limited_s`` and ``over_demonstrator_s`` with ``_low``
+        and ``_high``.
     """
     return pd.DataFrame([_row(c, condition) for c in courses for condition in CONDITIONS])
 
@@ -45,7 +46,7 @@ def _row(course: Elsewhere, condition: str) -> dict[str, object]:
         "course": course.course,
         "condition": condition,
         "n": d.n,
-        "unfinished": d.missing,
+        "unfinished": int((~course.finished[condition]).sum()),
         "mean_s": d.mean,
         "low_s": about.low,
         "high_s": about.high,

@@ -41,7 +41,10 @@ class Tried:
     accuracy
         One row per random order and lap; see ``analysis.reproduction.accuracy``.
     laps
-        Lap times, s: rows replicates, columns conditions; NaN for an unfinished lap.
+        Lap times, s: rows replicates, columns conditions. An unfinished lap counts as the time it
+        was given: the least it would have taken.
+    finished
+        Of the same shape: whether the lap was finished.
     undecided
         Share of steps with |p(h) - 0.5| < 0.001 in the laps of a condition, steps pooled.
     """
@@ -49,6 +52,7 @@ class Tried:
     variant: Variant
     accuracy: pd.DataFrame
     laps: pd.DataFrame
+    finished: pd.DataFrame
     undecided: Mapping[str, float]
 
 
@@ -85,9 +89,15 @@ def gather(folder: Path, jobs: int, say: Say) -> tuple[Tried, ...]:
             runs = teach_in_orders(maker(variant.model), taught, orders, jobs)
             accuracy = accuracy_table(runs)
         shares = {f"model after {n}": _undecided(study, f"model after {n}") for n in DEMONSTRATIONS}
-        times = by_participant(study, "lap_time_s")
-        tested.append(Tried(variant, accuracy, times, shares))
+        times, finished = lap_times(study)
+        tested.append(Tried(variant, accuracy, times, finished, shares))
     return tuple(tested)
+
+
+def lap_times(frames: StudyFrames) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Return lap times, s, unfinished laps as the time they were given; and which were finished."""
+    finished = by_participant(frames, "lap_time_s").notna()
+    return by_participant(frames, "duration_s"), finished
 
 
 def _undecided(frames: StudyFrames, condition: str) -> float:

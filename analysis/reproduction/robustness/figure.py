@@ -16,6 +16,9 @@ PANELS = (
 )
 """Columns of the table and what their panel is called; the first is better to the right."""
 
+FARTHEST = 30.0
+"""Changes of lap times beyond this are drawn as triangles at the edge, s."""
+
 
 def robustness_figure(table: pd.DataFrame) -> Figure:
     """Draw a row per variant, a panel per outcome: the mean change and its 95% interval.
@@ -41,18 +44,33 @@ def robustness_figure(table: pd.DataFrame) -> Figure:
 
 
 def _dots(axes: Axes, shown: pd.DataFrame, heights: np.ndarray, column: str) -> None:
-    at = shown[column].to_numpy(dtype=np.float64)
-    low = shown[f"{column}_low"].to_numpy(dtype=np.float64)
-    high = shown[f"{column}_high"].to_numpy(dtype=np.float64)
-    better = high < 0 if "lap" in column else low > 0
-    worse = low > 0 if "lap" in column else high < 0
-    known = np.isfinite(at)
+    at, low, high = (
+        shown[name].to_numpy(dtype=np.float64)
+        for name in (column, f"{column}_low", f"{column}_high")
+    )
+    is_lap = "lap" in column
+    better = high < 0 if is_lap else low > 0
+    worse = low > 0 if is_lap else high < 0
+    beyond = (np.abs(at) > FARTHEST) & is_lap
+    known = np.isfinite(at) & ~beyond
     axes.hlines(heights[known], low[known], high[known], color=BLACK, linewidth=1.2)
+    if is_lap:
+        axes.set_xlim(-FARTHEST * 1.05, FARTHEST * 1.05)
+        _triangles(axes, at[beyond], heights[beyond])
     for mask, colour, filled in ((better, BLACK, True), (worse, VERMILLION, True),
                                  (~better & ~worse, BLACK, False)):  # fmt: skip
         here = mask & known
         axes.scatter(at[here], heights[here], s=26, zorder=3, edgecolors=colour,
                      color=colour if filled else "white")  # fmt: skip
+
+
+def _triangles(axes: Axes, at: np.ndarray, heights: np.ndarray) -> None:
+    for value, height in zip(at, heights, strict=True):
+        edge = np.sign(value) * FARTHEST
+        axes.plot(edge, height, marker=">" if value > 0 else "<", color=VERMILLION, markersize=6)
+        axes.annotate(f"{value:+.0f}", (edge, height), xytext=(-8 * np.sign(value), 0),
+                      textcoords="offset points", ha="right" if value > 0 else "left",
+                      va="center", fontsize=7)  # fmt: skip
 
 
 def _bands(axes: Axes, shown: pd.DataFrame) -> None:

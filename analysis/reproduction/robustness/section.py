@@ -37,7 +37,8 @@ def robustness_section(variants: pd.DataFrame, costs: Mapping[str, float]) -> Se
             "robustness",
             "Change against the default model (Table I): mean and 95% interval, paired by random "
             f"order (AUC, all orders of the same laps) or replicate (laps, n = {n}). Black: "
-            "better; red: worse; hollow: the interval includes 0. Laps not finished are left out.",
+            "better; red: worse; hollow: the interval includes 0. An unfinished lap counts as the "
+            "time it was given, so that its change is the least possible. Triangles: out of range.",
             f"Better after one demonstration: {_named(variants, 'd_lap_1', better=True)}. "
             f"Worse: {_named(variants, 'd_lap_1', better=False)}.",
             robustness_figure(variants),
@@ -58,9 +59,10 @@ def _table(variants: pd.DataFrame) -> Table:
         "Medians over random orders: AUC after one demonstration, over the laps learnt from and "
         "in the test lap; of the test lap RMSE, Brier score and undecided steps, those with "
         "|p(h) - 0.5| < 0.001. Laps: mean (sd) after one and three demonstrations, s, how many "
-        "replicates finished them, and undecided steps in them. Cost: predicting and learning a "
-        "step of a fourth demonstration, measured on the machine that made this page; it alone "
-        "is not the same in another run.",
+        "replicates finished them (an unfinished lap counts as the time it was given), and "
+        "undecided steps in them. Cost: predicting and learning a step of a fourth "
+        "demonstration, measured on the machine that made this page; it alone is not the same "
+        "in another run.",
         variants,
         _COLUMNS,
     )
@@ -71,6 +73,14 @@ def _lap(n: int) -> Shown:
         return f"{number(r[f'lap_{n}_mean'])} ({number(r[f'lap_{n}_sd'])})"
 
     return Shown(f"lap after {n}", cell)
+
+
+def _finished(n: int) -> Shown:
+    def cell(r: dict[str, Any]) -> str:
+        laps, unfinished = int(r[f"lap_{n}_n"]), int(r[f"lap_{n}_unfinished"])
+        return f"{laps - unfinished} of {laps}"
+
+    return Shown("finished", cell)
 
 
 _COLUMNS = [
@@ -84,10 +94,10 @@ _COLUMNS = [
     Shown("Brier", lambda r: number(r["brier"], 4)),
     Shown("undecided", lambda r: percent(100 * r["undecided"], 1)),
     _lap(1),
-    Shown("n", lambda r: count(r["lap_1_n"])),
+    _finished(1),
     Shown("undecided", lambda r: percent(100 * r["lap_1_undecided"], 1)),
     _lap(3),
-    Shown("n", lambda r: count(r["lap_3_n"])),
+    _finished(3),
     Shown("undecided", lambda r: percent(100 * r["lap_3_undecided"], 1)),
     Shown("µs a step", lambda r: count(r["cost_us"])),
 ]

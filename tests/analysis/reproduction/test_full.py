@@ -129,16 +129,18 @@ def _tried(variant, laps, aucs):
     )  # fmt: skip
     names = [f"P{i}" for i in range(len(laps))]
     frame = pd.DataFrame({"model after 1": laps, "model after 3": laps}, index=names)
-    return Tried(variant, accuracy, frame, {"model after 1": 0.1, "model after 3": 0.0})
+    return Tried(
+        variant, accuracy, frame, frame < 300, {"model after 1": 0.1, "model after 3": 0.0}
+    )
 
 
 def test_changes_are_paired_and_unfinished_laps_counted():
-    """By hand: replicates 1 s slower each, one unfinished; AUC the same in every order."""
+    """By hand: one of three laps runs out of its 300 s; AUC the same in every order."""
     default = _tried(VARIANTS[0], [40.0, 50.0, 60.0], [0.9, 0.95])
-    other = _tried(VARIANTS[1], [41.0, 51.5, np.nan], [0.9, 0.95])
+    other = _tried(VARIANTS[1], [41.0, 51.5, 300.0], [0.9, 0.95])
     row = variant_table([default, other]).iloc[1]
-    assert row["d_lap_1"] == pytest.approx(1.25)
-    assert (row["lap_1_n"], row["lap_1_unfinished"]) == (2, 1)
+    assert row["d_lap_1"] == pytest.approx((1 + 1.5 + 240) / 3)
+    assert (row["lap_1_n"], row["lap_1_unfinished"]) == (3, 1)
     assert (row["d_auc_1"], row["d_auc_1_low"], row["d_auc_1_high"]) == (0, 0, 0)
     assert row["auc_1"] == pytest.approx(0.925)
 
@@ -151,7 +153,7 @@ def test_shares_of_help_are_means_over_replicates():
     )
     laps = pd.DataFrame({"baseline": [1.0, 2.0], "limited": [9.0, 9.5],
                          "demonstrator": [4.0, 4.0], "model": [5.0, 6.0]})  # fmt: skip
-    course = Elsewhere("hall", ("left",), laps, shares)
+    course = Elsewhere("hall", ("left",), laps, laps > 0, shares)
     row = section_table([course]).iloc[0]
     assert (row["assisted"], row["n"], row["high"], row["would"]) == (0.75, 2, 1.0, 0.0)
     model = course_table([course]).set_index("condition").loc["model"]
