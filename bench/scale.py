@@ -17,9 +17,9 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import psutil
 
@@ -68,37 +68,58 @@ def cohort(arguments: argparse.Namespace) -> list[dict[str, Any]]:
     wall, memory = _watched(command, lambda: len(list((out / "sessions").glob("P*"))))
     rows: list[dict[str, Any]] = [
         {"part": "run", "wall_s": wall, "sessions_per_minute": 60 * participants / wall,
-         "runner_peak_mb": max(rss for _, rss in memory), "size_mb": _size(out),
-         "runner_mb_by_sessions": _thinned(memory)}
+         "runner_peak_mb": max(look.own_mb for look in memory),
+         "all_peak_mb": max(look.all_mb for look in memory),
+         "largest_worker_peak_mb": max(look.largest_child_mb for look in memory),
+         "size_mb": _size(out), "runner_mb_by_sessions": _thinned(memory)}
     ]  # fmt: skip
     wall, memory = _watched((*COMMAND, "report", str(out)), lambda: 0)
-    rows.append({"part": "report", "wall_s": wall, "peak_mb": max(rss for _, rss in memory)})
+    rows.append({"part": "report", "wall_s": wall,
+                 "peak_mb": max(look.all_mb for look in memory)})  # fmt: skip
     for row in rows:
         print(row.pop("part"), *(f"  {name}: {_shown(value)}" for name, value in row.items()),
               sep="\n")  # fmt: skip
     return rows
 
 
-def _watched(command: Sequence[str], count: Any) -> tuple[float, list[tuple[int, float]]]:
-    """Return a command's wall time, and its own memory by what had been counted meanwhile."""
+class _Look(NamedTuple):
+    """Resident memory at one moment; pages that processes share count in each of them."""
+
+    counted: int
+    own_mb: float
+    all_mb: float
+    largest_child_mb: float
+
+
+def _watched(command: Sequence[str], count: Callable[[], int]) -> tuple[float, list[_Look]]:
+    """Return a command's wall time, and memory by what had been counted meanwhile."""
     begun = time.perf_counter()
     running = subprocess.Popen(command)  # noqa: S603  # our own command
     process, memory = psutil.Process(running.pid), []
     while running.poll() is None:
-        memory.append((count(), process.memory_info().rss / MB))
+        own = _resident(process)
+        children = [_resident(child) for child in process.children(recursive=True)]
+        memory.append(_Look(count(), own, own + sum(children), max(children, default=0.0)))
         time.sleep(EVERY_S)
     if running.returncode:
         raise SystemExit(f"{' '.join(command)} ended with exit code {running.returncode}")
     return time.perf_counter() - begun, memory
 
 
-def _thinned(memory: Sequence[tuple[int, float]]) -> dict[int, float]:
+def _resident(process: psutil.Process) -> float:
+    try:
+        return float(process.memory_info().rss) / MB
+    except psutil.NoSuchProcess:
+        return 0.0
+
+
+def _thinned(memory: Sequence[_Look]) -> dict[int, float]:
     """Return the memory at about ten numbers of finished sessions."""
-    last = max(count for count, _ in memory)
+    last = max(look.counted for look in memory)
     at: dict[int, float] = {}
-    for count, rss in memory:
-        mark = round(10 * count / max(1, last)) * last // 10
-        at[mark] = max(at.get(mark, 0.0), rss)
+    for look in memory:
+        mark = round(10 * look.counted / max(1, last)) * last // 10
+        at[mark] = max(at.get(mark, 0.0), look.own_mb)
     return at
 
 
