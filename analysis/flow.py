@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from analysis.frames import StudyFrames, excluded, refused
+from analysis.frames import StudyFrames, as_frame, excluded, refused
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +30,9 @@ class Flow:
         Of these, who finished every analysed lap.
     laps
         One row per condition: laps planned, not driven, unfinished by reason, finished.
+    withdrawals
+        One row per lap in which somebody left: participant, lap, condition, and why, in the
+        participant's words. Nobody who refused consent is in it.
     left_out
         What the tables hold that no analysis can use, in words; empty for our own studies.
     """
@@ -43,6 +46,7 @@ class Flow:
     analysed: int
     completed: int
     laps: pd.DataFrame
+    withdrawals: pd.DataFrame
     left_out: tuple[str, ...]
 
 
@@ -66,6 +70,7 @@ def participants_flow(frames: StudyFrames) -> Flow:
         analysed=len(frames.participants),
         completed=int((finished >= wanted).sum()),
         laps=lap_flow(frames),
+        withdrawals=withdrawals(frames),
         left_out=tuple(_left_out(frames)),
     )
 
@@ -93,6 +98,22 @@ def lap_flow(frames: StudyFrames) -> pd.DataFrame:
             }
         )
     return pd.DataFrame(rows)
+
+
+def withdrawals(frames: StudyFrames) -> pd.DataFrame:
+    """Return one row per lap that ended by a withdrawal, practice laps and the excluded included.
+
+    Returns
+    -------
+    pandas.DataFrame
+        Columns participant, lap, condition and withdrawal (the words; missing if there are none).
+    """
+    laps = as_frame(frames.study.laps)
+    people = frames.everybody
+    consented = set(people.loc[~refused(people), "participant"])
+    left = laps[(laps["end_reason"] == "withdrew") & laps["participant"].isin(consented)]
+    wanted = left[["participant", "lap", "condition", "withdrawal"]]
+    return wanted.sort_values(["participant", "lap"], ignore_index=True)
 
 
 def _left_out(frames: StudyFrames) -> Iterator[str]:

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from analysis.results import StudyResults
-from analysis.versions import analysis_versions
+from analysis.versions import analysis_versions, recording_versions
 
 
 def statistics_json(results: StudyResults) -> str:
@@ -25,7 +25,7 @@ def statistics_json(results: StudyResults) -> str:
         },
         "versions": {
             "analysis": analysis_versions(),
-            "recording": study.versions() or [study.header.versions],
+            "recording": recording_versions(study),
         },
         "flow": results.flow,
         "laps_without_steps": results.records.without_steps,

@@ -1,5 +1,8 @@
-"""Which software computed an analysis."""
+"""Which software computed an analysis, and which one recorded what it is about."""
 
+from dataclasses import dataclass
+
+from protocols.record.reader import Study
 from protocols.versions import package_versions
 
 ANALYSIS_PACKAGES = (
@@ -16,3 +19,20 @@ ANALYSIS_PACKAGES = (
 def analysis_versions() -> dict[str, str]:
     """Return the versions of Python and of the packages that the analysis stands on."""
     return package_versions(ANALYSIS_PACKAGES)
+
+
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """Package versions, and the number of sessions recorded with them; None: not known."""
+
+    versions: dict[str, str]
+    sessions: int | None
+
+
+def recording_versions(study: Study) -> tuple[Recording, ...]:
+    """Return the sets of versions that recorded a study, one for most studies.
+
+    Tables made elsewhere have no sessions that could say; the study's head may.
+    """
+    recorded = tuple(Recording(*used) for used in study.sessions_by_versions)
+    return recorded or (Recording(study.header.versions, None),)

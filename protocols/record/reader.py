@@ -1,5 +1,6 @@
 """Read a study directory: one of ours, or one that was recorded elsewhere in our schema."""
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -120,9 +121,16 @@ class Study:
 
     def versions(self) -> tuple[dict[str, str], ...]:
         """Return every distinct set of package versions that recorded sessions of this study."""
-        manifests = (read_manifest(path) for path in session_folders(self.folder))
-        distinct = {tuple(sorted(m.versions.items())): m.versions for m in manifests if m}
-        return tuple(distinct[key] for key in sorted(distinct))
+        return tuple(versions for versions, _ in self.sessions_by_versions)
+
+    @cached_property
+    def sessions_by_versions(self) -> tuple[tuple[dict[str, str], int], ...]:
+        """Every distinct set of package versions, and how many sessions it recorded."""
+        manifests = [read_manifest(path) for path in session_folders(self.folder)]
+        used = [m.versions for m in manifests if m]
+        keys = [tuple(sorted(versions.items())) for versions in used]
+        count, distinct = Counter(keys), dict(zip(keys, used, strict=True))
+        return tuple((distinct[key], count[key]) for key in sorted(count))
 
     def _session(self, participant: str) -> Path:
         path = self.folder / SESSIONS / participant

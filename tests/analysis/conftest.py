@@ -37,6 +37,8 @@ class MadeUp:
         Laps that ran into the time limit: participant number and lap.
     withdrew
         Lap after whose start a participant left, by participant number.
+    words
+        Why they left, by participant number.
     excluded
         Reasons for exclusion by participant number.
     unanswered
@@ -47,6 +49,7 @@ class MadeUp:
     answer: int | None = None
     unfinished: frozenset[tuple[int, int]] = frozenset()
     withdrew: dict[int, int] = field(default_factory=dict)
+    words: dict[int, str] = field(default_factory=dict)
     excluded: dict[int, str] = field(default_factory=dict)
     unanswered: frozenset[tuple[int, str]] = frozenset()
 
@@ -144,6 +147,7 @@ def session(study: ResolvedStudy, number: int, how: MadeUp, seed: int) -> Sessio
             training=condition.training,
             completed=finished,
             end_reason="finished" if finished else "withdrew" if left else "time_limit",
+            withdrawal=how.words.get(number) if left else None,
             lap_time_s=time if finished else None,
             duration_s=time,
             steps=len(frame),

@@ -14,7 +14,8 @@ def eventful(make_study):
     return make_study(
         participants=6,
         unfinished=frozenset({(1, 2), (2, 2)}),
-        withdrew={3: 3},
+        withdrew={3: 3, 5: 0},
+        words={3: "I feel dizzy", 5: "not my day"},
         excluded={4: "too many collisions", 5: "too many collisions"},
     )
 
@@ -36,6 +37,24 @@ def test_laps_add_up(eventful):
     assert laps.loc["limited", "time_limit"] == 2
     assert laps.loc["human-assisted", "withdrew"] == 1
     assert laps.loc["model-assisted", "not_driven"] == 1
+
+
+def test_withdrawals_keep_their_words(eventful):
+    """Everybody who left is listed with the words, also who left in practice or is excluded."""
+    left = participants_flow(study_frames(eventful)).withdrawals
+    assert [tuple(row) for row in left.itertuples(index=False)] == [
+        ("P0003", 3, "human-assisted", "I feel dizzy"),
+        ("P0005", 0, "familiarisation", "not my day"),
+    ]
+
+
+def test_who_refused_consent_is_not_quoted(eventful):
+    """Words of somebody without consent stay in the record."""
+    people = pd.read_parquet(eventful.folder / "participants.parquet").drop(columns="traits")
+    people["consented"] = people["participant"] != "P0003"
+    people.to_parquet(eventful.folder / "participants.parquet")
+    flow = participants_flow(study_frames(open_study(eventful.folder)))
+    assert list(flow.withdrawals["participant"]) == ["P0005"]
 
 
 def test_the_excluded_are_in_no_frame(eventful):

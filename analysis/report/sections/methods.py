@@ -4,13 +4,11 @@ from analysis.report.blocks import Paragraph, Section
 from analysis.report.words import plural
 from analysis.results import StudyResults
 from analysis.stats.bootstrap import RESAMPLES
-from analysis.versions import analysis_versions
+from analysis.versions import Recording, analysis_versions, recording_versions
 
 
 def methods_section(results: StudyResults) -> Section:
     """Return text that can be pasted into a paper."""
-    study = results.frames.study
-    recording = study.versions() or (study.header.versions,)
     return Section(
         "methods",
         "Methods",
@@ -20,7 +18,7 @@ def methods_section(results: StudyResults) -> Section:
             Paragraph(_models(results)),
             Paragraph(_maps_and_model()),
             Paragraph(f"Analysis: {_listed(analysis_versions())}."),
-            *(Paragraph(f"Recording: {_listed(v)}.") for v in recording if v),
+            *(Paragraph(_recorded(r)) for r in recording_versions(results.frames.study)),
         ),
     )
 
@@ -84,3 +82,10 @@ def _maps_and_model() -> str:
 
 def _listed(versions: dict[str, str]) -> str:
     return ", ".join(f"{name} {version}" for name, version in versions.items())
+
+
+def _recorded(by: Recording) -> str:
+    if not by.versions:
+        return "Recording: package versions not recorded."
+    sessions = "" if by.sessions is None else f" ({plural(by.sessions, 'session')})"
+    return f"Recording{sessions}: {_listed(by.versions)}."

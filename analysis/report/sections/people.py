@@ -3,7 +3,7 @@
 import pandas as pd
 
 from analysis.flow import Flow
-from analysis.report.blocks import Block, Caution, Paragraph, Section, Shown, table
+from analysis.report.blocks import Block, Caution, Paragraph, Section, Shown, Table, table
 from analysis.report.words import count, number, plural
 from analysis.results import StudyResults
 from analysis.stats.describe import describe
@@ -17,8 +17,10 @@ def people_section(results: StudyResults) -> Section:
                Shown("participants", lambda r: count(r["participants"]))]),
         table("laps_flow", f"Laps of the {results.flow.analysed} analysed participants: planned = "
               "finished + unfinished + not driven.", results.flow.laps, _LAPS),
-        Paragraph(_who(results.frames.participants)),
     ]  # fmt: skip
+    if len(results.flow.withdrawals):
+        blocks.append(_why_they_left(results.flow.withdrawals))
+    blocks.append(Paragraph(_who(results.frames.participants)))
     blocks += [Caution(f"Not analysed: {what}.") for what in results.flow.left_out]
     if results.records.without_steps:
         blocks.append(
@@ -39,6 +41,25 @@ _LAPS = [
     Shown("otherwise unfinished", lambda r: count(r["unfinished_otherwise"])),
     Shown("not driven", lambda r: count(r["not_driven"])),
 ]
+
+
+def _why_they_left(withdrawals: pd.DataFrame) -> Table:
+    return table(
+        "withdrawals",
+        f"Withdrawals ({len(withdrawals)}), practice laps and excluded participants included, in "
+        "the participants' own words.",
+        withdrawals,
+        [
+            Shown("participant", lambda r: str(r["participant"]), words=True),
+            Shown("lap (from 0)", lambda r: count(r["lap"])),
+            Shown("condition", lambda r: str(r["condition"]), words=True),
+            Shown("why", lambda r: _words(r["withdrawal"]), words=True),
+        ],
+    )
+
+
+def _words(said: object) -> str:
+    return said if isinstance(said, str) and said.strip() else "no reason recorded"
 
 
 def _stages(flow: Flow) -> pd.DataFrame:

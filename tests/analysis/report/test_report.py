@@ -13,6 +13,7 @@ from analysis.report.page import build_page
 from analysis.report.render import render
 from analysis.report.write import replace_folder
 from analysis.results import analyse
+from analysis.statistics import statistics_json
 from protocols.errors import InputError
 from protocols.record.reader import open_study
 
@@ -154,6 +155,37 @@ def test_minimal_tables_from_elsewhere_are_reported(make_study):
     text = render(page, {picture.name: b"" for picture in page.pictures})
     assert "8 laps came without a step table" in text
     assert "s faster" in text
+
+
+def test_a_withdrawal_is_shown_in_its_words(make_study):
+    """What a participant said is text on the page, whatever is in it; silence is said too."""
+    words = {1: "<b>dizzy</b> & tired"}
+    page = build_page(analyse(make_study(withdrew={1: 3, 2: 3}, words=words)))
+    text = render(page, {picture.name: b"" for picture in page.pictures})
+    assert "&lt;b&gt;dizzy&lt;/b&gt; &amp; tired" in text
+    assert "<b>dizzy" not in text
+    assert "no reason recorded" in text
+    assert [t.name for t in page.tables].count("withdrawals") == 1
+
+
+def test_without_withdrawals_there_is_no_table_of_them(report):
+    """Nobody left the uneventful study."""
+    assert not (report / "tables" / "withdrawals.csv").exists()
+
+
+def test_versions_come_with_the_number_of_sessions(make_study):
+    """Each set of package versions that recorded sessions is stated, and how many it recorded."""
+    folder = make_study(participants=3).folder
+    path = folder / "sessions" / "P0003" / "manifest.json"
+    manifest = json.loads(path.read_text())
+    path.write_text(json.dumps(manifest | {"versions": {"numpy": "0.1"}}))
+    results = analyse(open_study(folder))
+    page = build_page(results)
+    text = render(page, {picture.name: b"" for picture in page.pictures})
+    assert "Recording (1 session): numpy 0.1." in text
+    assert "Recording (2 sessions): " in text
+    recording = json.loads(statistics_json(results))["versions"]["recording"]
+    assert sorted(used["sessions"] for used in recording) == [1, 2]
 
 
 def test_an_older_report_is_replaced_whole(make_study):
