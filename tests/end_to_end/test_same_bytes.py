@@ -40,6 +40,30 @@ def test_what_is_compared_is_the_whole_record(undisturbed):
     }  # fmt: skip
 
 
+def test_code_compiled_afresh_gives_the_same_bytes(run_quick, record, undisturbed, tmp_path):
+    """With no compiled code on disk, and again with what the first run has left there."""
+    cache = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    for name in ("compiling", "loading"):
+        ended = run_quick(tmp_path / name, "--jobs", 1, "--participants", 1, **cache)
+        assert ended.code == 0, ended.err
+        sessions = {n: b for n, b in record(tmp_path / name).items() if n.startswith("sessions/")}
+        assert "sessions/P0001/model.npz" in sessions
+        assert sessions == {n: undisturbed[n] for n in sessions}
+    assert list((tmp_path / "cache").rglob("*.nbc"))
+
+
+@pytest.mark.slow
+def test_two_processes_that_compile_at_once_give_the_same_bytes(
+    run_quick, record, undisturbed, tmp_path
+):
+    """Each compiles what the other has not kept yet, so code fresh and from disk is mixed."""
+    cache = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    for name in ("compiling", "loading"):
+        ended = run_quick(tmp_path / name, "--jobs", 2, **cache)
+        assert ended.code == 0, ended.err
+        assert record(tmp_path / name) == undisturbed
+
+
 @pytest.mark.slow
 def test_the_shipped_study_gives_the_same_bytes(start, record, tmp_path):
     """The four-lap study in one process and in two, with its report, gives one record."""
