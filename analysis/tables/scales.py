@@ -53,7 +53,8 @@ def _sheets(
         & (answers["condition"] == condition)
         & answers["item"].isin([item.id for item in items])
     )
-    given = answers[chosen].assign(value=pd.to_numeric(answers["response"]).astype("float64"))
+    given = answers[chosen]
+    given = given.assign(value=pd.to_numeric(given["response"]).astype("float64"))
     sheets = given.pivot_table(index="participant", columns="item", values="value", dropna=False)
     for item in items:
         if item.reverse and item.id in sheets:

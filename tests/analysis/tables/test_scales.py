@@ -24,3 +24,12 @@ def test_incomplete_sheets_have_no_score(make_study):
     rows = table.set_index(["subscale", "condition"])
     assert rows.loc[("assistance", "model-assisted"), ["n", "incomplete"]].tolist() == [3, 1]
     assert rows.loc[("task", "model-assisted"), ["n", "incomplete"]].tolist() == [4, 0]
+
+
+def test_a_subscale_that_was_not_asked_has_no_row(make_study):
+    """After laps without assistance nobody is asked about it, so that there is no score."""
+    study = make_study()
+    table = scale_table(study_frames(study), study.instruments[0])
+    asked = set(table.loc[table["subscale"] == "assistance", "condition"])
+    assert asked == {"human-assisted", "model-assisted"}
+    assert set(table["n"]) == {4}
