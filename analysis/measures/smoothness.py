@@ -33,9 +33,10 @@ def sparc(steps: Steps, who: str) -> float:
     Rehabilitation 12, 112.
     """
     speed = np.linalg.norm(command(steps, who), axis=1)
-    if len(speed) < 3 or np.isnan(speed).any() or not speed.any():
+    dt = period(steps)
+    if len(speed) < 3 or np.isnan([*speed, dt]).any() or not speed.any():
         return float("nan")
-    return spectral_arc_length(speed, 1 / period(steps))
+    return spectral_arc_length(speed, 1 / dt)
 
 
 def spectral_arc_length(speed: Numbers, rate: float) -> float:

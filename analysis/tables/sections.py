@@ -24,6 +24,7 @@ def section_table(frames: StudyFrames, records: LapRecords) -> pd.DataFrame:
         for section in Centreline(frames.study.course).sections:
             here = laps[laps["section"] == section.name]
             helped = float(here["helped"].sum())
+            shadowed = here["h_would"].dropna()
             rows.append(
                 {
                     "section": section.name,
@@ -33,7 +34,7 @@ def section_table(frames: StudyFrames, records: LapRecords) -> pd.DataFrame:
                     "steps": len(here),
                     "assisted_percent": _percent(helped, len(here)),
                     "share_of_assistance_percent": _percent(helped, total),
-                    "would_percent": _percent((here["h_would"] > 0).sum(), len(here)),
+                    "would_percent": _percent((shadowed > 0).sum(), len(shadowed)),
                 }
             )
     columns = ["section", "kind", "condition", "role", "steps", "assisted_percent",

@@ -81,3 +81,10 @@ def test_jerk_of_a_minimum_jerk_movement_is_the_closed_form():
 def test_a_command_that_never_changes_has_no_jerk():
     """The logarithm of zero jerk is missing, not infinite."""
     assert np.isnan(log_dimensionless_jerk(command(np.ones(50)), "intent"))
+
+
+def test_without_times_there_is_no_spectrum():
+    """Times that are not numbers make the spectral arc length missing, not an error."""
+    steps = command(bell()).assign(t_s=np.nan)
+    assert np.isnan(sparc(steps, "intent"))
+    assert np.isnan(log_dimensionless_jerk(steps, "intent"))

@@ -1,5 +1,7 @@
 """Tables: shares, counts and numbers beside the paper's."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -47,6 +49,14 @@ def test_shares_of_assistance_add_up(frames, records):
     assert shares.tolist() == pytest.approx([100, 100])
     sharp = table[(table["role"] == "demonstrator") & (table["kind"] == "sharp_right")]
     assert sharp["assisted_percent"].tolist() == [100, 100]
+
+
+def test_help_that_nobody_recorded_is_not_zero(frames, records):
+    """Without the shadow demonstrator's record its share is missing; what was given stays."""
+    silent = replace(records, steps=records.steps.assign(h_would=np.nan))
+    table = section_table(frames, silent)
+    assert table["would_percent"].isna().all()
+    assert table["assisted_percent"].equals(section_table(frames, records)["assisted_percent"])
 
 
 def test_sections_follow_the_course(frames, records):
