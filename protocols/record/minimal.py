@@ -26,21 +26,33 @@ class TableRules:
         Columns that must be there, without a missing value unless the schema allows one.
     defaults
         Values of columns that are not there; other absent columns are all missing.
+    key
+        Columns that together name a row: no two rows may agree in all of them.
+    positive
+        Columns of finite numbers above 0, where they are not missing.
     """
 
     columns: tuple[Column, ...]
     required: tuple[str, ...]
     defaults: Mapping[str, Any] = field(default_factory=dict)
+    key: tuple[str, ...] = ()
+    positive: tuple[str, ...] = ()
 
 
-PARTICIPANTS = TableRules(PARTICIPANT_COLUMNS, ("participant",), {"excluded": False})
+PARTICIPANTS = TableRules(
+    PARTICIPANT_COLUMNS, ("participant",), {"excluded": False}, key=("participant",)
+)
 LAPS = TableRules(
     LAP_COLUMNS,
     ("participant", "lap", "condition", "completed", "lap_time_s"),
     {"practice": False},
+    key=("participant", "lap"),
+    positive=("lap_time_s",),
 )
 SURVEYS = TableRules(
-    SURVEY_COLUMNS, ("participant", "lap", "condition", "instrument", "item", "response")
+    SURVEY_COLUMNS,
+    ("participant", "lap", "condition", "instrument", "item", "response"),
+    key=("participant", "lap", "instrument", "item"),
 )
 STEPS = TableRules(STEP_COLUMNS, ("t_s", "x_m", "y_m"))
 
@@ -64,8 +76,8 @@ def conform(
     Raises
     ------
     InputError
-        When a required column is absent or has a missing value, or a column cannot be turned into
-        our type; names file and column.
+        When a required column is absent or has a missing value, a column cannot be turned into our
+        type, a number is out of range, or a row is there twice; names file and column or row.
     """
     there = set(table.column_names)
     absent = [name for name in rules.required if name not in there]
@@ -90,7 +102,10 @@ def conform(
         if name not in ours and (columns is None or name in columns):
             arrays.append(table[name])
             fields.append(table.schema.field(name))
-    return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
+    ready = pa.Table.from_arrays(arrays, schema=pa.schema(fields))
+    _check_range(ready, rules, path)
+    _check_key(ready, rules, path)
+    return ready
 
 
 def _converted(array: pa.ChunkedArray, column: Column, path: Path) -> pa.ChunkedArray:
@@ -112,3 +127,25 @@ def _check_missing(array: pa.ChunkedArray, column: Column, rules: TableRules, pa
     if column.name in rules.required and not column.nullable and array.null_count:
         row = pc.index(pc.is_null(array), value=True).as_py()
         raise InputError(f"{path}: column {column.name}: missing in row {row}; it must be given")
+
+
+def _check_range(table: pa.Table, rules: TableRules, path: Path) -> None:
+    for name in set(rules.positive) & set(table.column_names):
+        values = table[name]
+        wrong = pc.invert(pc.and_(pc.greater(values, 0), pc.is_finite(values)))
+        # NaN is how pandas writes a missing number.
+        row = pc.index(pc.and_not(wrong, pc.is_nan(values)), value=True).as_py()
+        if row >= 0:
+            value = values[row].as_py()
+            raise InputError(f"{path}: column {name}: {value} in row {row}; allowed: above 0")
+
+
+def _check_key(table: pa.Table, rules: TableRules, path: Path) -> None:
+    key = list(rules.key)
+    if not key or not set(key) <= set(table.column_names):
+        return
+    counted = table.group_by(key).aggregate([([], "count_all")])
+    again = counted.filter(pc.greater(counted["count_all"], 1))
+    if len(again):
+        row = ", ".join(f"{name} {again[name][0]}" for name in key)
+        raise InputError(f"{path}: {again['count_all'][0]} rows of {row}; allowed: one")

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pyarrow as pa
 import pytest
@@ -44,6 +45,12 @@ def test_gaps_as_pandas_writes_them_are_missing_values():
     assert table["collisions"].to_pylist() == [0, None, 2]
 
 
+def test_an_unfinished_lap_may_have_nan_for_its_time():
+    """Writers other than pandas leave NaN where a number is missing; that is no wrong time."""
+    laps = _laps().set_column(4, "lap_time_s", pa.array([40.0, float("nan"), 42.0]))
+    assert len(conform(laps, LAPS, _PATH)) == 3
+
+
 def test_categories_become_text():
     """A categorical column of pandas is text to us."""
     table = conform(_laps(condition=pd.Categorical(_LAPS["condition"])), LAPS, _PATH)
@@ -59,10 +66,14 @@ def test_categories_become_text():
         (_laps(lap=[0, 1, 99999]), "column lap is int64; allowed: int16"),
         (_laps(completed=["yes", "no", "maybe"]), "column completed is .*; allowed: bool"),
         (_laps(condition=["a", None, "b"]), "column condition: missing in row 1; it must be given"),
+        (_laps(lap_time_s=[40.0, None, -4.0]), "lap_time_s: -4.0 in row 2; allowed: above 0"),
+        (_laps(lap_time_s=[0.0, None, 42.0]), "lap_time_s: 0.0 in row 0; allowed: above 0"),
+        (_laps(lap_time_s=[4.0, np.inf, 4.0]), "lap_time_s: inf in row 1; allowed: above 0"),
+        (_laps(lap=[0, 0, 0]), "laps.parquet: 2 rows of participant A, lap 0; allowed: one"),
     ],
 )
 def test_what_cannot_be_used_is_named(table: pa.Table, message: str):
-    """A missing column, a wrong type and a missing value are told in one line."""
+    """A missing column, a wrong type, value or row is told in one line."""
     with pytest.raises(InputError, match=message) as caught:
         conform(table, LAPS, _PATH)
     assert "\n" not in str(caught.value)
