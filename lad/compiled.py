@@ -35,6 +35,9 @@ def compiled_sums(function: F) -> F:
     """Compile with sums that may be reordered, which vectorises a running total.
 
     Not for everything: freed from its order, LLVM also moves a division by a constant from
-    outside a loop to inside it.
+    outside a loop to inside it. The order is chosen when the code is made, from the types alone:
+    every caller passes contiguous arrays, so there is one signature, lazily compiled or not, and
+    code from disk is the code that was made. That the copies inside callers use the same order
+    nothing promises; a test compares them.
     """
     return compile_cached(function, ("contract", "reassoc", "nsz"))

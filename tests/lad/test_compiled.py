@@ -12,6 +12,9 @@ import numpy as np
 import pytest
 
 from lad import compiled as module
+from lad import fused, inverse
+from lad.triangle import packed, row_starts
+from lad.warm_up import warm_up
 
 SOURCE = Path(module.__file__).parent
 
@@ -72,3 +75,54 @@ def test_it_imports_where_nothing_can_be_written(tmp_path):
     assert value == "1.0"
     assert cache == "NullCache"
     assert Path(file).is_relative_to(tmp_path)
+
+
+def _problem(n):
+    """Return arguments for ``fused.predict``, of a model of n basis vectors."""
+    rng = np.random.default_rng(n)
+    half = rng.normal(size=(n, n))
+    matrix = packed(half @ half.T + n * np.eye(n))
+    work = np.zeros((5, n + 1))
+    basis, window = rng.normal(size=(2, 19, n + 1)), rng.normal(size=(2, 19))
+    alpha = rng.normal(size=(2, n + 1))
+    return n, matrix, row_starts(n + 1), alpha, basis, work, window, 0.5, 1.0, np.zeros(2)
+
+
+@pytest.mark.parametrize("n", [1, 3, 8, 30, 77, 201])
+def test_copies_inside_callers_sum_in_the_same_order(n):
+    """A sum by the function's own machine code has the bits of the copies that callers hold."""
+    arguments = _problem(n)
+    _, matrix, starts, alpha, _, work, _, _, prior, mean = arguments
+    latent = fused.predict(*arguments)
+    k, product = work[fused.K_ROW].copy(), np.zeros(n + 1)
+    fused.symmetric_product(matrix, starts, k, n, product)
+    assert product[:n].tobytes() == work[fused.S_ROW, :n].tobytes()
+    assert latent == prior + fused.inner(k, product, n)
+    assert mean.tolist() == [fused.inner(row, k, n) for row in alpha]
+    fused.learn(n, n + 1, matrix, matrix.copy(), starts, alpha, work, prior, 1e9, mean, 0.0)
+    assert product[:n].tobytes() == work[fused.E_ROW, :n].tobytes()
+
+
+@pytest.mark.parametrize("n", [1, 8, 77, 201])
+def test_the_copy_inside_an_inversion_sums_in_the_same_order(n):
+    """An inversion put together from its parts has the bits of the one that holds copies."""
+    matrix, starts = _problem(n)[1:3]
+    whole, parts = matrix.copy(), matrix.copy()
+    inverse.invert(whole, starts, n, 1e-9)
+    partners = inverse.factorise(parts, starts, n, 1e-9)
+    inverse.invert_factor(parts, starts, n)
+    inverse.square_of_factor(parts, starts, n)
+    for i in range(n - 1, -1, -1):
+        if partners[i] > i:
+            inverse.swap(parts, starts, n, i, partners[i])
+    assert parts.tobytes() == whole.tobytes()
+
+
+@pytest.mark.parametrize(
+    "function", [fused.predict, fused.learn, fused.symmetric_product, inverse.invert]
+)
+def test_there_is_one_signature(function):
+    """A model that learns, forgets and is repaired has every function compiled for one layout."""
+    warm_up()
+    assert len(function.signatures) == 1
+    assert all(a.layout == "C" for a in function.signatures[0] if hasattr(a, "layout"))
