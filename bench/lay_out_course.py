@@ -8,41 +8,26 @@ rounded; walls run alongside at half the corridor's width, with niches cut into 
 placed by arc length and distance from the centreline, so that it moves with the legs.
 """
 
-import argparse
 import itertools
 import math
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 import shapely
-from matplotlib.figure import Figure
-from ruamel.yaml import YAML
+from course_draft import (
+    LEFT,
+    RIGHT,
+    Fitting,
+    fitting_corners,
+    millimetres,
+    place,
+    points,
+    round_corners,
+    stub,
+    write_course,
+)
 
 from protocols.course.centreline import Centreline
-from protocols.course.drivable import check_drivable
-from protocols.course.obstacles import obstacle_boxes
-from protocols.course.schema import Course
-
-LEFT, RIGHT = 1, -1
-
-
-@dataclass(frozen=True)
-class Fitting:
-    """A niche or a piece of furniture beside the centreline.
-
-    ``at`` is (corner or leg name, metres from its start); ``clear`` is the distance from the
-    centreline to its near side; ``along`` and ``deep`` are its size; ``turn`` twists it.
-    """
-
-    name: str
-    at: tuple[str, float]
-    side: int
-    clear: float
-    along: float
-    deep: float
-    height: float = 0.8
-    turn: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -113,29 +98,11 @@ def vertices(layout: Layout) -> np.ndarray:
 
 def rounded(layout: Layout) -> tuple[np.ndarray, dict[str, tuple[float, float]]]:
     """Round the corners; return the line and each section's start and end arc."""
-    corners = vertices(layout)
-    degrees = (*layout.sharp, *layout.soft)
+    degrees = [-turn for turn in (*layout.sharp, *layout.soft)]
     radii = (*(layout.sharp_radius,) * 2, *(layout.soft_radius,) * 2)
-    line = [corners[0]]
-    marks = [0.0]
-    for i, (turn, radius) in enumerate(zip(np.radians(degrees), radii, strict=True), start=1):
-        into = _unit(corners[i] - corners[i - 1])
-        begin = corners[i] - radius * math.tan(turn / 2) * into
-        centre = begin + radius * np.array([into[1], -into[0]])
-        angles = -np.linspace(0.0, turn, math.ceil(turn / math.radians(15)) + 1)
-        spoke = begin - centre
-        arc = [
-            centre + np.array([[math.cos(a), -math.sin(a)], [math.sin(a), math.cos(a)]]) @ spoke
-            for a in angles
-        ]
-        marks.append(_length([*line, arc[0]]))
-        line += arc
-        marks.append(_length(line))
-    line.append(corners[-1])
-    marks.append(_length(line))
+    line, marks = round_corners(vertices(layout), degrees, radii)
     names = (name for name, _ in SECTIONS)
-    ends = dict(zip(names, itertools.pairwise(marks), strict=True))
-    return np.array(line), ends
+    return line, dict(zip(names, itertools.pairwise([0.0, *marks]), strict=True))
 
 
 def lay_out(layout: Layout, name: str, title: str, description: str) -> dict:
@@ -144,9 +111,10 @@ def lay_out(layout: Layout, name: str, title: str, description: str) -> dict:
     draft = {
         "schema": 1, "name": name, "title": title, "description": description,
         "start": {"x": 0.0, "y": 0.0, "heading": 0.0},
-        "gates": [], "centreline": _points(line),
+        "gates": [], "centreline": points(line),
         "sections": [
-            {"name": n, "kind": kind} | ({"until": _r(ends[n][1])} if n != "finish" else {})
+            {"name": n, "kind": kind}
+            | ({"until": millimetres(ends[n][1])} if n != "finish" else {})
             for n, kind in SECTIONS
         ],
         "walls": [], "furniture": [],
@@ -167,8 +135,8 @@ def _walls(layout: Layout, path: Centreline, line: np.ndarray, ends: dict) -> li
     free = shapely.simplify(free, 0.02)
     core = max(free.interiors, key=lambda ring: shapely.Polygon(ring).area)
     walls = [
-        {"name": "outer wall", "closed": True, "points": _points(free.exterior.coords[:-1])},
-        {"name": "inner wall", "closed": True, "points": _points(core.coords[:-1])},
+        {"name": "outer wall", "closed": True, "points": points(free.exterior.coords[:-1])},
+        {"name": "inner wall", "closed": True, "points": points(core.coords[:-1])},
     ]
     for corner in ("R1", "R2"):
         x, y, heading = path.point(sum(ends[corner]) / 2)
@@ -176,7 +144,7 @@ def _walls(layout: Layout, path: Centreline, line: np.ndarray, ends: dict) -> li
         tip = np.array([x, y]) + layout.screen_to_path * inwards
         root = shapely.LineString([tip, tip + 4 * inwards]).intersection(shapely.Polygon(core))
         foot = np.array(root.coords[0]) + 0.1 * inwards
-        walls.append({"name": f"screen at {corner}", "points": _points([tip, foot])})
+        walls.append({"name": f"screen at {corner}", "points": points([tip, foot])})
     assert loop.is_valid
     for wall in walls:
         wall["thickness"] = layout.thickness
@@ -194,111 +162,21 @@ def _gates(layout: Layout, path: Centreline, ends: dict) -> list[dict]:
         gates.append(
             {
                 "name": name,
-                "left": _points([np.array([x, y]) + layout.half_width * left])[0],
-                "right": _points([np.array([x, y]) - inner * left])[0],
+                "left": points([np.array([x, y]) + layout.half_width * left])[0],
+                "right": points([np.array([x, y]) - inner * left])[0],
             }
         )
     return gates
 
 
-def _frame(path: Centreline, ends: dict, fitting: Fitting) -> tuple[np.ndarray, float]:
-    section, metres = fitting.at
-    x, y, heading = path.point(ends[section][0] + metres)
-    outwards = fitting.side * np.array([-math.sin(heading), math.cos(heading)])
-    return np.array([x, y]) + (fitting.clear + fitting.deep / 2) * outwards, heading
-
-
-def fitting_corners(path: Centreline, ends: dict, fitting: Fitting) -> np.ndarray:
-    """Return a fitting's corners on the floor plan."""
-    centre, heading = _frame(path, ends, fitting)
-    along = np.array([math.cos(heading), math.sin(heading)]) * fitting.along / 2
-    across = np.array([-math.sin(heading), math.cos(heading)]) * fitting.deep / 2
-    return np.array(
-        [centre + a * along + b * across for a, b in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
-    )
-
-
-def place(path: Centreline, ends: dict, fitting: Fitting) -> dict:
-    """Return a piece of furniture as it stands in a course file."""
-    centre, heading = _frame(path, ends, fitting)
-    return {
-        "name": fitting.name, "x": _r(centre[0]), "y": _r(centre[1]),
-        "heading": _r(math.remainder(heading + fitting.turn, math.tau)),
-        "length": fitting.along, "width": fitting.deep, "height": fitting.height,
-    }  # fmt: skip
-
-
-def stub(draft: dict) -> Course:
-    """Return a course with one wall and one gate, enough to measure along its centreline."""
-    placeholder = {"name": "none", "points": [[90.0, 90.0], [91.0, 90.0]]}
-    gate = {"name": "F", "left": [90.0, 91.0], "right": [90.0, 90.0]}
-    return Course.model_validate({**draft, "walls": [placeholder], "gates": [gate]})
-
-
-def _unit(vector: np.ndarray) -> np.ndarray:
-    return vector / np.hypot(*vector)
-
-
-def _length(points: list) -> float:
-    return float(np.hypot(*np.diff(np.array(points), axis=0).T).sum()) if len(points) > 1 else 0.0
-
-
-def _r(value: float) -> float:
-    return round(float(value), 3) + 0.0
-
-
-def _points(points: object) -> list[list[float]]:
-    return [[_r(x), _r(y)] for x, y in points]
-
-
-def draw(course: Course, path: Path) -> None:
-    """Draw the plan as a PNG."""
-    figure = Figure(figsize=(10, 9))
-    axes = figure.subplots()
-    for box in obstacle_boxes(course):
-        axes.fill(*box.corners().T, color="0.35" if box.width == 0.1 else "peru")
-    axes.plot(*np.array(course.centreline).T, ".-", lw=0.8)
-    for gate in course.gates:
-        axes.plot(*np.array([gate.left, gate.right]).T, "r-", lw=1)
-        axes.text(*gate.left, gate.name, color="red")
-    axes.plot(course.start.x, course.start.y, "g>", ms=10)
-    axes.set_aspect("equal")
-    axes.grid(lw=0.3)
-    figure.savefig(path, dpi=80)
-
-
-def write(out: Path, layout: Layout = LAB_OFFICE) -> Course:
-    """Write a layout as the course lab-office; return the course."""
-    data = lay_out(
-        layout, "lab-office", "Lab office loop",
+def lab_office() -> dict:
+    """Return the course lab-office as the plain data of its file."""
+    return lay_out(
+        LAB_OFFICE, "lab-office", "Lab office loop",
         "A loop like Fig. 2 of Soh & Demiris (2013): from S through sharp right turns at R1 and "
         "R2, and back to F through two soft right bends.",
     )  # fmt: skip
-    write_yaml(data, out)
-    return Course.model_validate(data)
-
-
-def write_yaml(data: dict, out: Path) -> None:
-    """Write a course file."""
-    yaml = YAML()
-    yaml.default_flow_style = None
-    yaml.width = 100
-    with out.open("w") as file:
-        yaml.dump(data, file)
-
-
-def main() -> None:
-    """Write the course file and, on request, its picture."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("out", type=Path)
-    parser.add_argument("--picture", type=Path)
-    arguments = parser.parse_args()
-    course = write(arguments.out)
-    if arguments.picture:
-        draw(course, arguments.picture)
-    check_drivable(course)
-    print(f"{len(obstacle_boxes(course))} boxes, centreline {Centreline(course).length:.2f} m")
 
 
 if __name__ == "__main__":
-    main()
+    write_course(lab_office, __doc__.splitlines()[0])

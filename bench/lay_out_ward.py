@@ -7,19 +7,27 @@ Another building than the paper's: nothing in it is calibrated. The way is legs 
 arc length and distance from the centreline, as for the default course.
 """
 
-import argparse
 import itertools
 import math
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import shapely
-from lay_out_course import LEFT, RIGHT, Fitting, draw, fitting_corners, place, stub, write_yaml
+from course_draft import (
+    LEFT,
+    RIGHT,
+    Fitting,
+    fitting_corners,
+    millimetres,
+    place,
+    points,
+    round_corners,
+    stub,
+    unit,
+    write_course,
+)
 
 from protocols.course.centreline import Centreline
-from protocols.course.drivable import check_drivable
-from protocols.course.schema import Course
 
 HALF_WIDTH = 1.05
 """From the centreline to a wall's face, m."""
@@ -95,26 +103,12 @@ FURNITURE = (
 
 def way() -> tuple[np.ndarray, list[tuple[str, str, float]]]:
     """Return the centreline, its turns rounded, and each section's name, kind and end (m)."""
-    corners = _vertices()
-    line, sections = [corners[0]], []
-    legs = [FIRST_LEG[0], *(turn.leg for turn in TURNS)]
-    for i, turn in enumerate(TURNS, start=1):
-        into = (corners[i] - corners[i - 1]) / np.hypot(*(corners[i] - corners[i - 1]))
-        angle = math.radians(turn.degrees)
-        begin = corners[i] - turn.radius * math.tan(abs(angle) / 2) * into
-        side = math.copysign(1.0, angle)
-        centre = begin + side * turn.radius * np.array([-into[1], into[0]])
-        arc = [
-            centre + _rotated(begin - centre, share * angle)
-            for share in np.linspace(0.0, 1.0, math.ceil(abs(turn.degrees) / 15) + 1)
-        ]
-        line.append(arc[0])
-        sections.append((legs[i - 1], "straight", _length(line)))
-        line += arc[1:]
-        sections.append((turn.name, turn.kind, _length(line)))
-    line.append(corners[-1])
-    sections.append((legs[-1], "straight", _length(line)))
-    return np.array(line), sections
+    degrees, radii = zip(*((turn.degrees, turn.radius) for turn in TURNS), strict=True)
+    line, ends = round_corners(_vertices(), degrees, radii)
+    named = [(FIRST_LEG[0], "straight")]
+    for turn in TURNS:
+        named += [(turn.name, turn.kind), (turn.leg, "straight")]
+    return line, [(*section, end) for section, end in zip(named, ends, strict=True)]
 
 
 def lay_out() -> dict:
@@ -125,9 +119,10 @@ def lay_out() -> dict:
         "description": "Not the paper's: sharp rights at R1 and R2, soft right bends, and left "
         "turns between them.",
         "start": {"x": 0.0, "y": 0.0, "heading": 0.0},
-        "gates": [], "centreline": _points(line),
+        "gates": [], "centreline": points(line),
         "sections": [
-            {"name": name, "kind": kind} | ({"until": _r(end)} if name != TURNS[-1].leg else {})
+            {"name": name, "kind": kind}
+            | ({"until": millimetres(end)} if name != TURNS[-1].leg else {})
             for name, kind, end in sections
         ],
         "walls": [], "furniture": [],
@@ -151,8 +146,8 @@ def _vertices() -> np.ndarray:
 
 def _free(path: Centreline, line: np.ndarray, ends: dict) -> shapely.Polygon:
     """Return the floor up to the walls' middle lines."""
-    behind = line[0] - RUN_IN * _unit(line[1] - line[0])
-    ahead = line[-1] + RUN_OUT * _unit(line[-1] - line[-2])
+    behind = line[0] - RUN_IN * unit(line[1] - line[0])
+    ahead = line[-1] + RUN_OUT * unit(line[-1] - line[-2])
     reach = HALF_WIDTH + THICKNESS / 2
     whole = shapely.LineString([behind, *line, ahead])
     free = whole.buffer(reach, cap_style="flat", join_style="mitre", mitre_limit=1.2)
@@ -166,7 +161,7 @@ def _walls(free: shapely.Polygon) -> list[dict]:
         f"core {i}": ring for i, ring in enumerate(free.interiors, start=1)
     }
     return [
-        {"name": name, "closed": True, "points": _points(ring.coords[:-1]),
+        {"name": name, "closed": True, "points": points(ring.coords[:-1]),
          "thickness": THICKNESS, "height": 2.4}
         for name, ring in rings.items()
     ]  # fmt: skip
@@ -181,7 +176,7 @@ def _screen(path: Centreline, ends: dict, free: shapely.Polygon, turn: Turn) -> 
     at, inwards = _middle(path, ends, turn)
     foot = at + (_to_wall(free, at, inwards) + 0.1) * inwards
     return {
-        "name": f"screen at {turn.name}", "points": _points([at + SCREEN_TO_PATH * inwards, foot]),
+        "name": f"screen at {turn.name}", "points": points([at + SCREEN_TO_PATH * inwards, foot]),
         "thickness": THICKNESS, "height": 1.6,
     }  # fmt: skip
 
@@ -192,12 +187,12 @@ def _gates(path: Centreline, ends: dict, free: shapely.Polygon) -> list[dict]:
     for turn in _sharp():
         at, inwards = _middle(path, ends, turn)
         outer = at - (_to_wall(free, at, -inwards) - THICKNESS / 2) * inwards
-        posts = _points([outer, at + SCREEN_TO_PATH * inwards])
+        posts = points([outer, at + SCREEN_TO_PATH * inwards])
         left, right = posts if turn.degrees < 0 else reversed(posts)
         gates.append({"name": turn.name, "left": left, "right": right})
     x, y, heading = path.point(path.length)
     at, across = np.array([x, y]), np.array([-math.sin(heading), math.cos(heading)])
-    left, right = _points([at + FINISH_LEFT * across, at - HALF_WIDTH * across])
+    left, right = points([at + FINISH_LEFT * across, at - HALF_WIDTH * across])
     return [*gates, {"name": "F", "left": left, "right": right}]
 
 
@@ -214,41 +209,5 @@ def _to_wall(free: shapely.Polygon, at: np.ndarray, way_out: np.ndarray) -> floa
     return min(shapely.Point(at).distance(point) for point in shapely.get_parts(hit))
 
 
-def _rotated(vector: np.ndarray, angle: float) -> np.ndarray:
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]])
-
-
-def _unit(vector: np.ndarray) -> np.ndarray:
-    return vector / np.hypot(*vector)
-
-
-def _length(points: list) -> float:
-    return float(np.hypot(*np.diff(np.array(points), axis=0).T).sum())
-
-
-def _r(value: float) -> float:
-    return round(float(value), 3) + 0.0
-
-
-def _points(points: object) -> list[list[float]]:
-    return [[_r(x), _r(y)] for x, y in points]
-
-
-def main() -> None:
-    """Write the course file and, on request, its picture."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("out", type=Path)
-    parser.add_argument("--picture", type=Path)
-    arguments = parser.parse_args()
-    data = lay_out()
-    write_yaml(data, arguments.out)
-    course = Course.model_validate(data)
-    if arguments.picture:
-        draw(course, arguments.picture)
-    check_drivable(course)
-    print(f"centreline {Centreline(course).length:.2f} m")
-
-
 if __name__ == "__main__":
-    main()
+    write_course(lay_out, __doc__.splitlines()[0])

@@ -6,13 +6,8 @@ A negative control: the limitation scales right turns, so that here it should ha
 R1 and R2 become L1 and L2; walls and furniture keep their names but for the corner they stand at.
 """
 
-import argparse
-from pathlib import Path
-
-from lay_out_course import LAB_OFFICE, draw, lay_out, write_yaml
-
-from protocols.course.drivable import check_drivable
-from protocols.course.schema import Course
+from course_draft import write_course
+from lay_out_course import LAB_OFFICE, lay_out
 
 
 def mirrored(course: dict) -> dict:
@@ -55,25 +50,16 @@ def _kind(kind: str) -> str:
     return "left" if "right" in kind else kind
 
 
-def main() -> None:
-    """Write the course file and, on request, its picture."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("out", type=Path)
-    parser.add_argument("--picture", type=Path)
-    arguments = parser.parse_args()
-    data = mirrored(
+def lab_office_mirror() -> dict:
+    """Return the course lab-office-mirror as the plain data of its file."""
+    return mirrored(
         lay_out(
             LAB_OFFICE, "lab-office-mirror", "Lab office loop, mirrored",
             "The mirror image of lab-office: from S through sharp left turns at L1 and L2, and "
             "back to F through two soft left bends.",
         )
     )  # fmt: skip
-    write_yaml(data, arguments.out)
-    course = Course.model_validate(data)
-    if arguments.picture:
-        draw(course, arguments.picture)
-    check_drivable(course)
 
 
 if __name__ == "__main__":
-    main()
+    write_course(lab_office_mirror, __doc__.splitlines()[0])

@@ -1,14 +1,10 @@
 """The courses beside the default one are what they say, and can be driven."""
 
-import importlib.util
 import itertools
 import math
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
-from ruamel.yaml import YAML
 
 from harness.laser import Laser
 from harness.plan import Plan
@@ -16,24 +12,11 @@ from harness.session import Session
 from harness.world import BulletWorld
 from protocols.course.centreline import Centreline
 from protocols.course.obstacles import floor_plan, obstacle_boxes
-from protocols.course.schema import Course
 from protocols.load import load_course
 from protocols.pose import Pose
 from protocols.resolved import ResolvedStudy
 from protocols.study import StudyProtocol
 from protocols.wheelchair import LASER_AHEAD
-
-BENCH = Path(__file__).parents[2] / "bench"
-needs_checkout = pytest.mark.skipif(not BENCH.is_dir(), reason="needs the checkout")
-
-
-def _script(name, monkeypatch):
-    monkeypatch.syspath_prepend(str(BENCH))
-    spec = importlib.util.spec_from_file_location(name, BENCH / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    monkeypatch.setitem(sys.modules, name, module)
-    spec.loader.exec_module(module)
-    return module
 
 
 def _turns(course, kinds):
@@ -110,26 +93,3 @@ def test_both_kinds_of_driver_finish_a_lap(name, driver):
     (lap,) = Session(Plan(study, 0), 1, world).run().laps
     assert lap.row.completed
     assert lap.row.collisions == 0
-
-
-@needs_checkout
-def test_the_mirror_file_is_what_its_script_writes(monkeypatch):
-    """The mirror image of the default layout is the shipped file, exactly."""
-    layout = _script("lay_out_course", monkeypatch)
-    data = layout.lay_out(layout.LAB_OFFICE, "lab-office-mirror", "t", "d")
-    written = _script("mirror_course", monkeypatch).mirrored(data)
-    _same(written, "lab-office-mirror", but=("title", "description"))
-
-
-@needs_checkout
-def test_the_ward_file_is_what_its_script_writes(monkeypatch):
-    """Legs, turns, rooms and furniture of the script lead to the shipped file, exactly."""
-    _script("lay_out_course", monkeypatch)
-    _same(_script("lay_out_ward", monkeypatch).lay_out(), "ward-corridor")
-
-
-def _same(data, name, but=()):
-    text = BENCH.parent / f"protocols/courses/{name}.yaml"
-    shipped = Course.model_validate(YAML(typ="safe").load(text))
-    written = Course.model_validate(data)
-    assert written.model_copy(update={f: getattr(shipped, f) for f in but}) == shipped
