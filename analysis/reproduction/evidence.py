@@ -8,19 +8,12 @@ from pathlib import Path
 import pandas as pd
 
 from analysis.frames import StudyFrames, study_frames
-from analysis.randomness import generator
 from analysis.reproduction.accuracy import accuracy_table
-from analysis.reproduction.demonstrations import demonstrations
 from analysis.reproduction.lap_times import lap_time_table
-from analysis.reproduction.teaching import Run, permutations, teach_in_orders
+from analysis.reproduction.lessons import STUDIES, lessons
+from analysis.reproduction.teaching import Run, teach_in_orders
 from lad.lad_assistant import LADAssistant
 from protocols.record.reader import open_study
-
-STUDIES = "studies"
-"""The folder of a reproduction that holds its study directories, each by its protocol's name."""
-
-PERMUTATIONS = 15
-"""Random orders the demonstrations are taught in (section IV.D)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,13 +61,11 @@ def gather(folder: Path, jobs: int = 1, tell: Callable[[int, int], None] | None 
     """
     laps = study_frames(open_study(folder / STUDIES / "rd-laps"))
     people = study_frames(open_study(folder / STUDIES / "four-lap"))
-    recorded = open_study(folder / STUDIES / "rd-accuracy")
-    taught = demonstrations(recorded)
-    orders = permutations(len(taught), PERMUTATIONS, generator(recorded, "permutations"))
-    fresh = partial(LADAssistant, recorded.protocol.model.parameters)
-    runs = teach_in_orders(fresh, taught, orders, jobs, tell)
+    taught = lessons(folder)
+    fresh = partial(LADAssistant, taught.study.protocol.model.parameters)
+    runs = teach_in_orders(fresh, taught.laps, taught.orders, jobs, tell)
     return Evidence(
-        seed=recorded.seed or 0,
+        seed=taught.study.seed or 0,
         laps=laps,
         people=people,
         lap_times=lap_time_table(laps),

@@ -15,9 +15,14 @@ from lad.baselines.estimators import (
     make_pipeline,
 )
 from lad.baselines.refitted import RefittedAssistant
-from lad.baselines.step import answer, checked_command, checked_input, checked_threshold
+from lad.baselines.step import (
+    answer,
+    checked_command,
+    checked_input,
+    checked_look,
+    checked_threshold,
+)
 from lad.command import Command
-from lad.errors import InvalidTargetError
 
 UNITS = 32
 """Hidden units of either network, in one layer."""
@@ -75,10 +80,8 @@ class OnlineNetwork:
         InvalidTargetError
             When nothing was seen in this lap, or help was given without a finite command.
         """
-        if self._now is None:
-            raise InvalidTargetError("learn: nothing was seen in this lap; assist comes first")
-        checked = checked_command(helping, command)
-        row = self._scaler.partial_fit(self._now[None, :]).transform(self._now[None, :])
+        seen, checked = checked_look(self._now)[None, :], checked_command(helping, command)
+        row = self._scaler.partial_fit(seen).transform(seen)
         self._when.partial_fit(row, [checked is not None], classes=[False, True])
         self._taught += 1
         if checked is not None:

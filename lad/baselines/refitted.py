@@ -6,9 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lad.assistant import Assistance
-from lad.baselines.step import answer, checked_command, checked_input, checked_threshold
+from lad.baselines.step import (
+    answer,
+    checked_command,
+    checked_input,
+    checked_look,
+    checked_threshold,
+)
 from lad.command import Command
-from lad.errors import InvalidTargetError
 
 
 class RefittedAssistant:
@@ -65,10 +70,8 @@ class RefittedAssistant:
         InvalidTargetError
             When nothing was seen in this lap, or help was given without a finite command.
         """
-        if self._now is None:
-            raise InvalidTargetError("learn: nothing was seen in this lap; assist comes first")
-        checked = checked_command(helping, command)
-        self._inputs.append(self._now)
+        seen, checked = checked_look(self._now), checked_command(helping, command)
+        self._inputs.append(seen)
         self._commands.append(checked)
 
     def _fit(self) -> None:

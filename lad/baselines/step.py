@@ -29,6 +29,19 @@ def checked_input(x: NDArray[np.float64]) -> NDArray[np.float64]:
     return seen
 
 
+def checked_look(seen: NDArray[np.float64] | None) -> NDArray[np.float64]:
+    """Return the inputs last seen in this lap.
+
+    Raises
+    ------
+    InvalidTargetError
+        When nothing was seen: there is nothing to learn a target for.
+    """
+    if seen is None:
+        raise InvalidTargetError("learn: nothing was seen in this lap; assist comes first")
+    return seen
+
+
 def checked_command(helping: bool, command: Command | None) -> Command | None:
     """Return the command to be learnt; None where no help was given.
 

@@ -8,7 +8,7 @@ import pandas as pd
 
 from analysis.frames import StudyFrames, as_frame, study_frames
 from analysis.measures.streams import helped
-from analysis.reproduction.evidence import STUDIES
+from analysis.reproduction.lessons import STUDIES
 from analysis.reproduction.robustness.evidence import ROBUSTNESS, lap_times
 from protocols.course.centreline import Centreline
 from protocols.errors import InputError

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from analysis.reproduction.demonstrations import Demonstration
-from analysis.reproduction.robustness.evidence import maker, recorded_demonstrations
+from analysis.reproduction.lessons import lessons
+from analysis.reproduction.robustness.evidence import maker
 from analysis.reproduction.teaching import LearningAssistant, MakeModel
 from lad.command import Command
 from protocols.record.atomic import write_whole
@@ -39,7 +40,7 @@ def costs(folder: Path) -> dict[str, float]:
         kept = json.loads(path.read_text())
         if kept.keys() == {variant.name for variant in VARIANTS}:
             return {name: float(value) for name, value in kept.items()}
-    laps = recorded_demonstrations(folder)
+    laps = lessons(folder).laps
     found = {v.name: round(step_cost(maker(v.model), laps), 1) for v in VARIANTS}
     write_whole(path, (json.dumps(found, indent=1) + "\n").encode())
     return found

@@ -11,11 +11,9 @@ import pandas as pd
 
 from analysis.frames import StudyFrames, study_frames
 from analysis.outcomes import by_participant
-from analysis.randomness import generator
 from analysis.reproduction.accuracy import UNDECIDED, accuracy_table
-from analysis.reproduction.demonstrations import Demonstration, demonstrations
-from analysis.reproduction.evidence import PERMUTATIONS, STUDIES
-from analysis.reproduction.teaching import MakeModel, permutations, teach_in_orders
+from analysis.reproduction.lessons import STUDIES, lessons
+from analysis.reproduction.teaching import MakeModel, teach_in_orders
 from lad.lad_assistant import LADAssistant
 from protocols.record.reader import open_study
 from protocols.study import ModelChoice
@@ -76,9 +74,7 @@ def gather(folder: Path, jobs: int, say: Say) -> tuple[Tried, ...]:
     InputError
         When a study is not there or cannot be used.
     """
-    recorded = open_study(folder / STUDIES / "rd-accuracy")
-    taught = demonstrations(recorded)
-    orders = permutations(len(taught), PERMUTATIONS, generator(recorded, "permutations"))
+    taught = lessons(folder)
     tested: list[Tried] = []
     for i, variant in enumerate(VARIANTS, start=1):
         say(f"Teaching variants in random orders {i}/{len(VARIANTS)}")
@@ -86,7 +82,7 @@ def gather(folder: Path, jobs: int, say: Say) -> tuple[Tried, ...]:
         if variant.same_probabilities:
             accuracy = tested[0].accuracy
         else:
-            runs = teach_in_orders(maker(variant.model), taught, orders, jobs)
+            runs = teach_in_orders(maker(variant.model), taught.laps, taught.orders, jobs)
             accuracy = accuracy_table(runs)
         shares = {f"model after {n}": _undecided(study, f"model after {n}") for n in DEMONSTRATIONS}
         times, finished = lap_times(study)
@@ -107,11 +103,6 @@ def _undecided(frames: StudyFrames, condition: str) -> float:
         for participant, lap in zip(laps["participant"], laps["lap"], strict=True)
     ]
     return float((np.abs(np.concatenate(p) - 0.5) < UNDECIDED).mean()) if p else float("nan")
-
-
-def recorded_demonstrations(folder: Path) -> tuple[Demonstration, ...]:
-    """Return the demonstrations that variants are taught."""
-    return demonstrations(open_study(folder / STUDIES / "rd-accuracy"))
 
 
 def maker(choice: ModelChoice) -> MakeModel:

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from analysis.report.blocks import Page
-from analysis.reproduction.evidence import PERMUTATIONS
+from analysis.reproduction import lessons
 from analysis.reproduction.full import full_sections
 from analysis.reproduction.generalisation.evidence import Elsewhere
 from analysis.reproduction.generalisation.tables import course_table, section_table
@@ -40,7 +40,7 @@ def whole(write_made_up, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(evidence, "VARIANTS", SOME)
         patch.setattr(cost, "VARIANTS", SOME)
-        patch.setattr(evidence, "PERMUTATIONS", 2)
+        patch.setattr(lessons, "PERMUTATIONS", 2)
         first, again = full_sections(folder), full_sections(folder)
     return folder, first, again
 
@@ -105,7 +105,7 @@ def test_every_variant_can_be_taught():
 
 def test_the_variants_are_those_that_were_announced():
     """Equation (10), W_h, capacity, depth, each lengthscale halved and doubled, five baselines."""
-    assert PERMUTATIONS == 15
+    assert lessons.PERMUTATIONS == 15
     assert [v.name for v in VARIANTS] == [
         "default", "probability-paper",
         "threshold-0.3", "threshold-0.4", "threshold-0.6", "threshold-0.7",

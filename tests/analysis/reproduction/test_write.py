@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from analysis.reproduction import evidence
+from analysis.reproduction import lessons
 from analysis.reproduction.write import PAGE, replace_all, write_reproduction
 from protocols.errors import InputError
 
@@ -29,7 +29,7 @@ def folder(write_made_up, tmp_path_factory):
     for protocol, participants in (("rd-laps", 2), ("rd-accuracy", 1), ("four-lap", 2)):
         write_made_up(folder / "studies" / protocol, protocol, participants)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(evidence, "PERMUTATIONS", 2)
+        patch.setattr(lessons, "PERMUTATIONS", 2)
         page, _ = write_reproduction(folder)
         before = read(folder)
         write_reproduction(folder)

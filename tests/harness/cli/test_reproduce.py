@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from analysis.reproduction import evidence
+from analysis.reproduction import lessons
 from harness.reproduction import studies
 from protocols.load import resolve_study
 
@@ -58,7 +58,7 @@ def test_a_folder_with_something_else_is_left_alone(lad_study, tmp_path):
 def test_a_small_reproduction_from_end_to_end(lad_study, tmp_path, monkeypatch):
     """Two replicates and two people: the page is written, and again with the same bytes."""
     monkeypatch.setattr(studies, "resolve_study", _small)
-    monkeypatch.setattr(evidence, "PERMUTATIONS", 2)
+    monkeypatch.setattr(lessons, "PERMUTATIONS", 2)
     said = lad_study("reproduce", "--seed", "3", "--jobs", "2")
     assert said.code == 0, said.err
     folder = tmp_path / "reproductions" / "seed3"
