@@ -9,6 +9,7 @@ import pandas as pd
 from analysis.frames import StudyFrames, as_frame
 from analysis.measures.registry import MEASURES
 from analysis.measures.streams import Steps, helped, stream
+from protocols.record.steps import STEP_COLUMNS
 
 POOLED = ("x_m", "y_m", "h_would", "p_help")
 """Numeric step columns that are kept of every lap."""
@@ -27,11 +28,14 @@ class LapRecords:
         0, 1 or NaN), h_would, p_help, section and its kind.
     without_steps
         Analysed laps whose steps were not recorded.
+    unrecorded
+        Step columns without a value in any analysed lap.
     """
 
     measures: pd.DataFrame
     steps: pd.DataFrame
     without_steps: int
+    unrecorded: tuple[str, ...] = ()
 
 
 def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None) -> LapRecords:
@@ -43,6 +47,7 @@ def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None
         When a step file is damaged; names it.
     """
     rows, pooled, without = [], [], 0
+    unrecorded = [column.name for column in STEP_COLUMNS]
     laps = frames.laps
     keys = zip(laps["participant"], laps["lap"], laps["condition"], laps["completed"], strict=True)
     for done, (participant, lap, condition, completed) in enumerate(keys):
@@ -52,6 +57,7 @@ def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None
         if frames.study.has_steps(participant, lap):
             steps = as_frame(frames.study.steps(participant, lap))
             pooled.append(_kept(steps, participant, condition))
+            unrecorded = [name for name in unrecorded if steps[name].isna().all()]
         else:
             steps = pd.DataFrame()
             without += 1
@@ -62,7 +68,7 @@ def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None
     measures = pd.DataFrame(rows, columns=columns).astype(
         {**dict.fromkeys(names, "float64"), "completed": "bool"}
     )
-    return LapRecords(measures, _together(pooled), without)
+    return LapRecords(measures, _together(pooled), without, tuple(unrecorded) if pooled else ())
 
 
 def _kept(steps: Steps, participant: str, condition: str) -> pd.DataFrame:

@@ -63,10 +63,12 @@ def write_replay(
     Raises
     ------
     InputError
-        When there is no such study, participant or lap, its steps are damaged, or the file cannot
-        be written.
+        When there is no such study, participant or lap, its steps are damaged, or the file's name
+        does not end with .gif or it cannot be written.
     """
     out = Path(out)
+    if out.suffix.lower() != ".gif":
+        raise InputError(f"{out}: is not the name of a GIF; allowed: a name that ends with .gif")
     if not out.parent.is_dir():
         raise InputError(f"{out}: cannot be written: {out.parent}: no such folder")
     study = open_study(Path(study_dir))

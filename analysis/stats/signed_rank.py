@@ -146,5 +146,6 @@ def _notes(given: NDArray[np.float64], kept: NDArray[np.float64], low: float) ->
     if len(sizes) < len(kept):
         notes.append(f"{shared[shared > 1].sum()} of {len(given)} differences are tied")
     if math.isnan(low):
-        notes.append(f"{len(given)} pairs are too few for an interval of this level")
+        pairs = "1 pair is" if len(given) == 1 else f"{len(given)} pairs are"
+        notes.append(f"{pairs} too few for an interval of this level")
     return tuple(notes)

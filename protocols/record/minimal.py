@@ -23,7 +23,8 @@ class TableRules:
     columns
         The table as this version records it.
     required
-        Columns that must be there, without a missing value unless the schema allows one.
+        Columns that must be there, without a missing value unless they are measurements (floats)
+        or the schema allows one.
     defaults
         Values of columns that are not there; other absent columns are all missing.
     key
@@ -124,6 +125,9 @@ def _converted(array: pa.ChunkedArray, column: Column, path: Path) -> pa.Chunked
 
 
 def _check_missing(array: pa.ChunkedArray, column: Column, rules: TableRules, path: Path) -> None:
+    # A missing measurement is a gap in the analysis; without a key, nobody knows whose row it is.
+    if pa.types.is_floating(column.type):
+        return
     if column.name in rules.required and not column.nullable and array.null_count:
         row = pc.index(pc.is_null(array), value=True).as_py()
         raise InputError(f"{path}: column {column.name}: missing in row {row}; it must be given")

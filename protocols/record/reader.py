@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 
 import pyarrow as pa
+import pyarrow.compute as pc
 
 from protocols.course.schema import Course
 from protocols.errors import InputError
@@ -74,7 +75,10 @@ class Study:
         if not (self.folder / SURVEYS_TABLE).exists():
             nothing = pa.schema([pa.field(c.name, c.type) for c in SURVEYS.columns]).empty_table()
             return conform(nothing, SURVEYS, self.folder / SURVEYS_TABLE)
-        return self._table(SURVEYS_TABLE, SURVEYS)
+        answers = self._table(SURVEYS_TABLE, SURVEYS)
+        for instrument in self.instruments:
+            _check_answers(answers, instrument, self.folder / SURVEYS_TABLE)
+        return answers
 
     def sessions(self) -> tuple[str, ...]:
         """Return the participants with a session folder, sorted."""
@@ -152,6 +156,19 @@ class Study:
                 f"{path}: no such file; the same `lad-study run` again finishes the study"
             )
         return conform(read_parquet(path), rules, path)
+
+
+def _check_answers(answers: pa.Table, instrument: Instrument, path: Path) -> None:
+    """Refuse an answer that is no point of its instrument's scale."""
+    given = answers["response"]
+    off = pc.or_(pc.less(given, 1), pc.greater(given, instrument.points))
+    wrong = pc.and_(pc.equal(answers["instrument"], instrument.name), off)
+    row = pc.index(wrong, value=True).as_py()
+    if row >= 0:
+        raise InputError(
+            f"{path}: column response: {given[row].as_py()} in row {row}; "
+            f"allowed: 1 to {instrument.points} ({instrument.name}), or nothing"
+        )
 
 
 def open_study(folder: Path | str) -> Study:

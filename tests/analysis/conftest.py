@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
 from protocols.course.centreline import Centreline
@@ -235,3 +236,18 @@ def steps(study: Study) -> pd.DataFrame:
     """Return the steps of a lap that the model helped."""
     frame: pd.DataFrame = study.steps("P0001", 4).to_pandas()
     return frame
+
+
+@pytest.fixture(scope="session")
+def erase() -> Callable[..., None]:
+    """Return the function that takes every value of a column out of step tables."""
+
+    def erase(folder: Path, column: str, files: str = "steps-*.parquet") -> None:
+        for path in folder.rglob(files):
+            steps = pq.read_table(path)
+            place = steps.schema.get_field_index(column)
+            field = steps.schema.field(place).with_nullable(True)
+            nothing = pa.nulls(len(steps), field.type)
+            pq.write_table(steps.set_column(place, field, nothing), path)
+
+    return erase

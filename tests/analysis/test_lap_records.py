@@ -48,3 +48,12 @@ def test_progress_is_told(study):
     said = []
     read_laps(study_frames(study), said.append)
     assert said[0].startswith("Measuring laps: 0 of")
+
+
+def test_columns_without_any_value_are_named(make_study, erase):
+    """Those of which no step of any lap has one; not those that some laps lack."""
+    study = make_study(participants=2)
+    assert read_laps(study_frames(study)).unrecorded == ()
+    erase(study.folder, "h_would")
+    erase(study.folder, "p_help", "P0001/steps-1.parquet")
+    assert read_laps(study_frames(study)).unrecorded == ("h_would",)

@@ -45,3 +45,10 @@ def test_a_folder_that_is_not_there_is_one_clear_line(study, tmp_path):
     """The output cannot be written: says where, before anything is drawn."""
     with pytest.raises(InputError, match="no such folder"):
         write_replay(study.folder, "P0001", 1, tmp_path / "nowhere" / "lap.gif")
+
+
+def test_a_file_that_is_no_gif_by_its_name_is_refused(study, tmp_path):
+    """A GIF under another ending would not open."""
+    with pytest.raises(InputError, match=r"lap.mp4: .*allowed: a name that ends with .gif"):
+        write_replay(study.folder, "P0001", 1, tmp_path / "lap.mp4")
+    assert not list(tmp_path.iterdir())

@@ -1,9 +1,11 @@
 """Where assistance was given: the plan, and shares by section."""
 
+from collections.abc import Sequence
+
 from analysis.figures.assistance_map import assistance_map
 from analysis.figures.section_shares import section_figure
 from analysis.report.blocks import Block, Paragraph, Picture, Section, Shown, table
-from analysis.report.words import count, interval, is_p, number, percent
+from analysis.report.words import count, interval, is_p, number, percent, plural
 from analysis.results import StudyResults
 from analysis.stats.result import TestResult
 
@@ -15,18 +17,8 @@ def map_section(results: StudyResults) -> Section:
     if not helped:
         nothing = Paragraph("In no condition of this study could anybody help.")
         return Section("assistance", "Where assistance was given", (nothing,))
-    laps = results.records.measures.groupby("condition")["assisted_fraction"].count()
-    n = ", ".join(f"{c}: {int(laps.get(c, 0))} laps" for c in helped)
     blocks: list[Block] = [
-        Picture(
-            "assistance_map",
-            "Driven paths (grey) and smoothed density of the steps in which assistance counted, "
-            f"on one colour scale; each density integrates to 1 ({n}; the paper's Figure 7). "
-            "Gaussian kernel, standard deviation 0.25 m. S start, R1 and R2 gates, F finish.",
-            f"Floor plans with driven paths and where assistance was given. {_most(results)}",
-            assistance_map(results.records.steps, frames.study.course, helped),
-        ),
-        Paragraph(_overlap(results.overlap)),
+        *_map(results, helped),
         Picture(
             "section_shares",
             "Share of assisted steps in each section of the course, in driving order. Black "
@@ -38,6 +30,28 @@ def map_section(results: StudyResults) -> Section:
               _COLUMNS),
     ]  # fmt: skip
     return Section("assistance", "Where assistance was given", tuple(blocks))
+
+
+def _map(results: StudyResults, helped: Sequence[str]) -> tuple[Block, ...]:
+    """Return the map and how far its sources overlap; why not, where nobody's place is known."""
+    steps = results.records.steps
+    placed = steps[["x_m", "y_m"]].notna().all(axis=1)
+    if not placed.any():
+        return (Paragraph("No map: no position was recorded in any step."),)
+    known = steps.loc[placed & steps["helped"].notna(), ["condition", "participant"]]
+    people = known.groupby("condition", observed=True)["participant"].nunique()
+    n = ", ".join(f"{c}: {plural(int(people.get(c, 0)), 'participant')}" for c in helped)
+    return (
+        Picture(
+            "assistance_map",
+            "Driven paths (grey) and smoothed density of the steps in which assistance counted, "
+            f"on one colour scale; each density integrates to 1 ({n}; the paper's Figure 7). "
+            "Gaussian kernel, standard deviation 0.25 m. S start, R1 and R2 gates, F finish.",
+            f"Floor plans with driven paths and where assistance was given. {_most(results)}",
+            assistance_map(steps, results.frames.study.course, helped),
+        ),
+        Paragraph(_overlap(results.overlap)),
+    )
 
 
 def _overlap(found: TestResult | None) -> str:

@@ -15,7 +15,7 @@ def people_section(results: StudyResults) -> Section:
         table("participants_flow", "Participants flow.", _stages(results.flow),
               [Shown("stage", lambda r: r["stage"], words=True),
                Shown("participants", lambda r: count(r["participants"]))]),
-        table("laps_flow", f"Laps of the {results.flow.analysed} analysed participants: planned = "
+        table("laps_flow", f"Laps of those analysed (n = {results.flow.analysed}): planned = "
               "finished + unfinished + not driven.", results.flow.laps, _LAPS),
     ]  # fmt: skip
     if len(results.flow.withdrawals):
@@ -27,6 +27,13 @@ def people_section(results: StudyResults) -> Section:
             Paragraph(
                 f"{plural(results.records.without_steps, 'lap')} came without a step table: lap "
                 "times and answers are analysed, measures from steps are missing there."
+            )
+        )
+    if results.records.unrecorded:
+        blocks.append(
+            Paragraph(
+                f"Not recorded in any step: {', '.join(results.records.unrecorded)}. What follows "
+                "from these columns cannot be computed, and is shown as missing."
             )
         )
     return Section("participants", "Participants", tuple(blocks))

@@ -141,6 +141,19 @@ def test_what_cannot_be_computed_is_said_and_the_rest_computed(make_study, event
     assert "nan" not in text.lower().split()
 
 
+def test_columns_without_a_value_are_named_and_the_rest_is_computed(make_study, erase):
+    """Without positions there is no map, and the page says so; lap times are there."""
+    study = make_study(participants=3)
+    for column in ("x_m", "y_m", "h_would"):
+        erase(study.folder, column)
+    page = build_page(analyse(open_study(study.folder)))
+    text = render(page, {picture.name: b"" for picture in page.pictures})
+    assert "Not recorded in any step: h_would, x_m, y_m." in text
+    assert "No map: no position was recorded in any step." in text
+    assert "assistance_map" not in {picture.name for picture in page.pictures}
+    assert len(next(t for t in page.tables if t.name == "lap_times").rows) == 4
+
+
 def test_minimal_tables_from_elsewhere_are_reported(make_study):
     """Participants by id alone, laps with five columns, no steps, no answers: a report."""
     study = make_study(participants=2)

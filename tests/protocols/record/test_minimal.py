@@ -84,3 +84,12 @@ def test_our_own_tables_pass_unchanged(rules):
     """A table of this version's schema comes back as it is."""
     schema = pa.schema([pa.field(c.name, c.type, nullable=c.nullable) for c in rules.columns])
     assert conform(schema.empty_table(), rules, _PATH).schema.equals(schema)
+
+
+@pytest.mark.parametrize("gap", [None, float("nan")])
+def test_a_measurement_may_be_missing(gap):
+    """A null and a NaN in a required column of floats are the same gap."""
+    steps = pa.table({"t_s": [0.0, 0.1], "x_m": pa.array([1.0, gap]), "y_m": [0.0, 0.0]})
+    x = conform(steps, STEPS, _PATH)["x_m"].to_pandas()
+    assert x[0] == 1.0
+    assert np.isnan(x[1])

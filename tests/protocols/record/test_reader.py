@@ -4,6 +4,8 @@ import shutil
 from collections.abc import Callable
 from pathlib import Path
 
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
 from protocols.errors import InputError
@@ -132,3 +134,18 @@ def test_a_study_recorded_elsewhere_is_read(ward: Path):
     assert study.steps("Ann", 1)["x_m"].to_pylist() == [1.0, 1.1]
     assert study.steps("Ann", 1)["control"].null_count == 2
     assert not study.has_steps("Bea", 0)
+
+
+@pytest.mark.parametrize("given", [0, 6, 99, -1])
+def test_an_answer_off_the_scale_is_named(folder: Path, given: int):
+    """Which answer, and what the scale has."""
+    path = folder / "surveys.parquet"
+    answers = pq.read_table(path)
+    responses = [*answers["response"].to_pylist()[:-1], given]
+    place = answers.schema.get_field_index("response")
+    field = answers.schema.field(place)
+    changed = answers.set_column(place, field, pa.array(responses, field.type))
+    pq.write_table(changed, path)
+    said = f"column response: {given} in row {len(answers) - 1}; allowed: 1 to 5"
+    with pytest.raises(InputError, match=said):
+        _ = open_study(folder).surveys
