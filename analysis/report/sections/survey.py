@@ -89,10 +89,12 @@ def _with_agreement(comparisons: list[PairedComparison], answers: pd.DataFrame) 
 
 
 def _said(survey: SurveyResults) -> str:
-    return "; ".join(
+    answered = survey.table[survey.table["answered"] > 0]
+    said = (
         f"{row['item']} {row['condition']} {percent(row['agree_percent'])} agree"
-        for row in survey.table.to_dict("records")
+        for row in answered.to_dict("records")
     )
+    return "; ".join(said) or "Nothing was answered."
 
 
 def _odds(low: float, high: float) -> str:
