@@ -87,7 +87,7 @@ def locate(kind: Kind, name_or_path: str, folder: Path | None = None) -> Source:
         what = f"{name_or_path}: no such file"
     else:
         what = f"no {_WORD[kind]} is named {name_or_path!r}"
-    raise InputError(f"{what}; {allowed(path.stem, ('a file', *shipped))}")
+    raise InputError(f"{what}; {allowed(path.stem, shipped, ['a file'])}")
 
 
 def shipped_text(name: str) -> str:

@@ -4,8 +4,10 @@ from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 
 
-def allowed(given: str, names: Iterable[str]) -> str:
+def allowed(given: str, names: Iterable[str], kinds: Iterable[str] = ()) -> str:
     """Return the end of a message: the allowed names and, where one is near, a guess.
+
+    ``kinds`` of things that are allowed besides, such as a file, stand first and are no guess.
 
     Examples
     --------
@@ -13,7 +15,7 @@ def allowed(given: str, names: Iterable[str]) -> str:
     "allowed: baseline, limited (did you mean 'limited'?)"
     """
     names = tuple(names)
-    listed = f"allowed: {', '.join(names) or 'nothing'}"
+    listed = f"allowed: {', '.join((*kinds, *names)) or 'nothing'}"
     near = get_close_matches(given, names, n=1)
     return f"{listed} (did you mean '{near[0]}'?)" if near else listed
 

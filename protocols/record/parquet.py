@@ -81,5 +81,5 @@ def _readable(path: Path) -> Iterator[pq.ParquetFile]:
     except FileNotFoundError:
         raise InputError(f"{path}: no such file") from None
     except (pa.ArrowException, OSError, ValueError, MemoryError) as error:
-        reason = str(error).partition("\n")[0]
+        reason = str(error).partition("\n")[0].rstrip(".")
         raise InputError(f"{path}: not a readable Parquet file: {reason}") from None

@@ -8,6 +8,7 @@ def test_a_near_miss_is_guessed_and_a_far_one_is_not():
     assert allowed("limted", ["limited"]).endswith("(did you mean 'limited'?)")
     assert allowed("xyz", ["limited"]) == "allowed: limited"
     assert allowed("xyz", []) == "allowed: nothing"
+    assert allowed("nofile", ["limited"], ["a file"]) == "allowed: a file, limited"
 
 
 def test_long_lists_are_shortened():
