@@ -1,6 +1,7 @@
 PYTHON ?= python3.11
 VENV := .venv
 BIN := $(VENV)/bin
+ALL_CORES := --numprocesses logical --maxprocesses 8 --dist worksteal
 
 .PHONY: study test check clean
 
@@ -8,7 +9,7 @@ study: $(VENV)/installed  ## Run the four-lap study with twelve synthetic partic
 	$(BIN)/lad-study run four-lap --out studies/four-lap-seed0
 
 test: $(VENV)/installed-test  ## Run every test and check
-	$(BIN)/python -m pytest -m "not slow"
+	$(BIN)/python -m pytest -m "not slow" $(ALL_CORES) --hypothesis-seed 0
 	$(MAKE) check
 
 check: $(VENV)/installed-test
