@@ -21,6 +21,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import pandas as pd
 import psutil
 
 COMMAND = (sys.executable, "-c", "from harness.cli import main; main()")
@@ -38,8 +39,13 @@ def main() -> None:
 
 
 def cores(arguments: argparse.Namespace) -> list[dict[str, Any]]:
-    """Run studies of every size with every number of processes, in turn."""
+    """Run studies of every size with every number of processes, in turn.
+
+    Two speedups: of the whole command, start and tables included, and of the sessions alone,
+    which is the number of processes over how much longer a session takes beside the others.
+    """
     walls: dict[tuple[int, int], list[float]] = {}
+    sessions: dict[tuple[int, int], list[float]] = {}
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(arguments.repeats):
             for participants in arguments.participants:
@@ -49,15 +55,21 @@ def cores(arguments: argparse.Namespace) -> list[dict[str, Any]]:
                     command = _run(arguments, participants, jobs, out)
                     subprocess.run(command, check=True)  # noqa: S603  # our own command
                     walls.setdefault((participants, jobs), []).append(time.perf_counter() - begun)
+                    took = pd.read_csv(out / "logs" / "timing.csv")["wall_s"].mean()
+                    sessions.setdefault((participants, jobs), []).append(float(took))
                     shutil.rmtree(out)
-    print(f"{'participants':>12} {'jobs':>5} {'wall s':>8} {'speedup':>8}")
+    print(f"{'participants':>12} {'jobs':>5} {'wall s':>8} {'speedup':>8} {'a session s':>12} "
+          f"{'speedup':>8}")  # fmt: skip
     rows = []
     for (participants, jobs), seconds in walls.items():
-        wall = statistics.median(seconds)
-        speedup = statistics.median(walls[participants, arguments.jobs[0]]) / wall
-        rows.append({"participants": participants, "jobs": jobs, "wall_s": wall,
-                     "speedup": speedup, "all_wall_s": seconds})  # fmt: skip
-        print(f"{participants:12d} {jobs:5d} {wall:8.2f} {speedup:8.2f}")
+        first = participants, arguments.jobs[0]
+        wall, alone = statistics.median(seconds), statistics.median(sessions[participants, jobs])
+        whole = statistics.median(walls[first]) / wall
+        parts = jobs / first[1] * statistics.median(sessions[first]) / alone
+        rows.append({"participants": participants, "jobs": jobs, "wall_s": wall, "speedup": whole,
+                     "session_s": alone, "speedup_of_sessions": parts,
+                     "all_wall_s": seconds})  # fmt: skip
+        print(f"{participants:12d} {jobs:5d} {wall:8.2f} {whole:8.2f} {alone:12.2f} {parts:8.2f}")
     return rows
 
 

@@ -10,15 +10,15 @@ from dataclasses import dataclass
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
-from harness.plan import Plan
 from harness.processes import Died, Processes, warm_up
-from protocols.course.schema import Course
 from protocols.errors import InputError
-from protocols.start_noise import StartNoise
-from protocols.study import LaserSettings
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # only: the workers' start must not wait for what reading a protocol needs
+    from harness.plan import Plan
     from harness.world import World
+    from protocols.course.schema import Course
+    from protocols.start_noise import StartNoise
+    from protocols.study import LaserSettings
 
 T = TypeVar("T")
 
@@ -89,7 +89,7 @@ def get_ready() -> None:
     warm_up(["harness.session", "harness.world", "harness.cli"])
 
 
-def rehearse(workers: Workers, plan: Plan) -> None:
+def rehearse(workers: Workers, plan: "Plan") -> None:
     """Make everybody of the first session once, so that a mistake shows before anything runs.
 
     Raises
@@ -107,7 +107,7 @@ def rehearse(workers: Workers, plan: Plan) -> None:
 
 
 def run_sessions(
-    workers: Workers, plan: Plan, numbers: Iterable[int]
+    workers: Workers, plan: "Plan", numbers: Iterable[int]
 ) -> Iterator[tuple[int, Finished | Failed | Died]]:
     """Run participants' sessions, and yield each as soon as it has ended.
 
@@ -117,7 +117,7 @@ def run_sessions(
     return workers.run(partial(attempt, plan), numbers)
 
 
-def attempt(plan: Plan, number: int) -> Finished | Failed:
+def attempt(plan: "Plan", number: int) -> Finished | Failed:
     """Run one session; whatever it raises ends this session only."""
     from harness.session import Session  # noqa: PLC0415  # the runner itself needs no simulator
     from protocols.record.session import encode  # noqa: PLC0415
@@ -133,7 +133,7 @@ def attempt(plan: Plan, number: int) -> Finished | Failed:
     return Finished(files, time.perf_counter() - begun, warned)
 
 
-def _rehearsal(plan: Plan, _number: int) -> InputError | None:
+def _rehearsal(plan: "Plan", _number: int) -> InputError | None:
     from harness import casting  # noqa: PLC0415  # the runner itself needs no simulator
 
     try:
@@ -147,7 +147,7 @@ def _rehearsal(plan: Plan, _number: int) -> InputError | None:
     return None
 
 
-def _world(plan: Plan) -> "World":
+def _world(plan: "Plan") -> "World":
     protocol = plan.study.protocol
     return _reused_world(
         plan.study.course, protocol.laser, protocol.control_period_s, protocol.start_noise
@@ -156,7 +156,7 @@ def _world(plan: Plan) -> "World":
 
 @lru_cache(maxsize=1)
 def _reused_world(
-    course: Course, laser: LaserSettings, period: float, start_noise: StartNoise
+    course: "Course", laser: "LaserSettings", period: float, start_noise: "StartNoise"
 ) -> "World":
     """Return this process's world: building one costs more than resetting it."""
     from harness.world import BulletWorld  # noqa: PLC0415  # loads PyBullet
