@@ -126,7 +126,7 @@ def attempt(plan: "Plan", number: int) -> Finished | Failed:
     with _ONE_AT_A_TIME, warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("default")
         try:
-            files = encode(Session(plan, number, _world(plan)).run())
+            files = encode(Session(plan, number, _world(plan)).run(), plan.digest)
         except Exception:  # noqa: BLE001  # one participant's failure must not end the others'
             return Failed(traceback.format_exc())
     warned = tuple(f"{w.filename}:{w.lineno}: {w.category.__name__}: {w.message}" for w in caught)

@@ -1,12 +1,14 @@
 """Run a study: the missing sessions, then the tables. The runner alone writes."""
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from harness.crew import Failed, Finished, hire, rehearse, run_sessions
 from harness.plan import Plan, portable
 from harness.processes import Died
+from protocols.record.header import StudyHeader
 from protocols.record.rows import participant_id
 from protocols.record.store import (
     build_tables,
@@ -15,9 +17,11 @@ from protocols.record.store import (
     finished_sessions,
     held,
     open_folder,
+    raised,
     refuse_another_study,
     write_death,
     write_failure,
+    write_given_up,
     write_session,
     write_timing,
     write_warnings,
@@ -40,7 +44,8 @@ class Outcome:
     finished
         Sessions this run finished.
     failed
-        Participants whose session raised, in this run or, left alone, in an earlier one.
+        Participants whose session raised, in this run or, left alone, in an earlier one, or was
+        given up because its processes died.
     """
 
     planned: int
@@ -84,27 +89,37 @@ def run_study(
         When something cannot be written, or no worker can be had; what was finished is kept.
     """
     plan = portable(plan)
-    refuse_another_study(out, plan.study, plan.seed)
-    if not _missing(plan, out, retry_failed=retry_failed):
+    header = refuse_another_study(out, plan.study, plan.seed)
+    if header and not _missing(_named(plan, header), out, retry_failed=retry_failed):
         return _complete(plan, out)
     with hire(jobs, scheduler) as workers:
         rehearse(workers, plan)
-        open_folder(out, plan.study, plan.seed)
-        with held(out):
-            missing = _missing(plan, out, retry_failed=retry_failed)
+        with _opened(plan, out) as named:
+            missing = _missing(named, out, retry_failed=retry_failed)
             before = len(_planned(plan)) - len(missing)
             counted = (lambda ended: tell(before + ended, len(_planned(plan)))) if tell else None
-            finished = _write(out, run_sessions(workers, plan, missing), counted)
-            build_tables(out)
-    return _outcome(plan, out, finished)
+            finished = _write(out, run_sessions(workers, named, missing), counted)
+            build_tables(out, named.digest)
+            return _outcome(named, out, finished)
 
 
 def _complete(plan: Plan, out: Path) -> Outcome:
     """Put a study in order whose sessions are all there."""
-    open_folder(out, plan.study, plan.seed)
+    with _opened(plan, out) as named:
+        build_tables(out, named.digest)
+        return _outcome(named, out, 0)
+
+
+@contextmanager
+def _opened(plan: Plan, out: Path) -> Iterator[Plan]:
+    """Hold the study directory, in order, while a run writes into it."""
     with held(out):
-        build_tables(out)
-    return _outcome(plan, out, 0)
+        yield _named(plan, open_folder(out, plan.study, plan.seed))
+
+
+def _named(plan: Plan, header: StudyHeader) -> Plan:
+    """Return the plan with the name that the directory's sessions give their study."""
+    return replace(plan, digest=header.digest)
 
 
 def _planned(plan: Plan) -> range:
@@ -112,10 +127,13 @@ def _planned(plan: Plan) -> range:
 
 
 def _missing(plan: Plan, out: Path, *, retry_failed: bool) -> list[int]:
-    """Return who has neither finished nor, left alone, failed."""
-    settled = set(finished_sessions(out))
+    """Return who has neither finished nor, left alone, failed.
+
+    A session whose processes died is missing: memory may have been short, or a machine taken away.
+    """
+    settled = set(finished_sessions(out, plan.digest))
     if not retry_failed:
-        settled.update(failures(out))
+        settled.update(raised(out))
     return [number for number in _planned(plan) if participant_id(number) not in settled]
 
 
@@ -133,11 +151,14 @@ def _write(
         if isinstance(session, Died) and session.again:
             write_death(out, name, session.reason)
             continue
+        clear_failure(out, name)
         if isinstance(session, Finished):
             _keep(out, name, session)
             finished += 1
+        elif isinstance(session, Failed):
+            write_failure(out, name, session.trace)
         else:
-            write_failure(out, name, _why(session))
+            write_given_up(out, name, session.reason)
         ended += 1
         if tell:
             tell(ended)
@@ -146,17 +167,12 @@ def _write(
 
 def _keep(out: Path, name: str, session: Finished) -> None:
     write_session(out, name, session.files)
-    clear_failure(out, name)
     write_timing(out, name, session.wall_s)
     write_warnings(out, name, session.warned)
 
 
-def _why(session: Failed | Died) -> str:
-    return session.trace if isinstance(session, Failed) else f"{session.reason}\n"
-
-
 def _outcome(plan: Plan, out: Path, finished: int) -> Outcome:
     planned = [participant_id(number) for number in _planned(plan)]
-    there = set(finished_sessions(out))
+    there = set(finished_sessions(out, plan.digest))
     failed = tuple(name for name in failures(out) if name in planned and name not in there)
     return Outcome(len(planned), len(there.intersection(planned)) - finished, finished, failed)

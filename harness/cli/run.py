@@ -98,7 +98,7 @@ def _failures(folder: Path, outcome: "Outcome") -> str:
     return (
         f"{len(outcome.failed)} of {outcome.planned} sessions failed ({names}; the first one: "
         f"{failure_reason(folder, outcome.failed[0])}): see {folder / 'logs'}; "
-        "--retry-failed runs them again."
+        "--retry-failed runs them again (those whose process died, the same command too)."
     )
 
 

@@ -48,12 +48,16 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
     if header.seed is None:
         return tuple(_foreign_faults(folder))
     sessions = session_folders(folder)
-    faults = [*_header_faults(folder, header), *_missing_sessions(folder, header, sessions)]
+    faults = [
+        *_header_faults(folder, header),
+        *_missing_sessions(folder, header, sessions),
+        *_sessions_beyond(folder, header, sessions),
+    ]
     sound = []
     for number, session in enumerate(sessions, start=1):
         if tell is not None:
             tell(f"Session {number} of {len(sessions)}")
-        found = list(_session_faults(session, header.study))
+        found = list(_session_faults(session, header))
         faults += [f"{fault}; remove {session}, then {_AGAIN}" for fault in found]
         if not found:
             sound.append(session.name)
@@ -110,14 +114,31 @@ def _missing_sessions(
         )
 
 
-def _session_faults(session: Path, study: ResolvedStudy) -> Iterator[str]:
+def _sessions_beyond(
+    folder: Path, header: StudyHeader, sessions: tuple[Path, ...]
+) -> Iterator[str]:
+    count = header.protocol.cohort.participants
+    planned = set(map(participant_id, range(1, count + 1)))
+    beyond = [session.name for session in sessions if session.name not in planned]
+    if beyond:
+        yield (
+            f"{folder / SESSIONS}: {len(beyond)} sessions beyond the {count} participants planned "
+            f"({beyond[0]} first); the same `lad-study run` with more --participants takes them in"
+        )
+
+
+def _session_faults(session: Path, header: StudyHeader) -> Iterator[str]:
     """Check the files of one session: bytes first, then what they say."""
     damaged = list(session_faults(session))
     yield from damaged
     if damaged:
         return
+    manifest = read_manifest(session)
+    if manifest and header.digest and manifest.study not in {None, header.digest}:
+        yield f"{session}: a session of another study (its study's digest differs)"
+        return
     try:
-        yield from _content_faults(session, study)
+        yield from _content_faults(session, header.study)
     except InputError as error:
         yield str(error)
 

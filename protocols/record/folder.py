@@ -8,19 +8,21 @@ from protocols.errors import InputError
 from protocols.record.atomic import is_partial, remove_partials, write_whole
 from protocols.record.codebook import CODEBOOK_FILE, codebook_json
 from protocols.record.header import STUDY_FILE, StudyHeader, header_of, read_header, write_header
-from protocols.record.identity import differences
+from protocols.record.identity import differences, study_digest
 from protocols.record.logs import LOGS
-from protocols.record.sessions import SESSIONS
+from protocols.record.sessions import SESSIONS, read_manifest, session_folders
 from protocols.resolved import ResolvedStudy
 
 _LOCK = ".lock"
+_SHOWN = 5
+"""How many differences between two studies are shown."""
 
 
-def open_folder(folder: Path, study: ResolvedStudy, seed: int) -> None:
+def open_folder(folder: Path, study: ResolvedStudy, seed: int) -> StudyHeader:
     """Make a study directory, or check that one is this study's and tidy it up.
 
     Sessions that are there stay. A study can be enlarged; asking for fewer participants than are
-    planned there changes nothing.
+    planned there changes nothing. Nobody else may write into the folder meanwhile (``held``).
 
     Parameters
     ----------
@@ -31,23 +33,29 @@ def open_folder(folder: Path, study: ResolvedStudy, seed: int) -> None:
     seed
         Its seed.
 
+    Returns
+    -------
+    StudyHeader
+        What the folder says about itself now.
+
     Raises
     ------
     InputError
         When the folder holds something else, or another study (shows the difference), or cannot
-        be written; nothing in it is touched then.
+        be made; nothing in it is touched then.
     """
     header = refuse_another_study(folder, study, seed)
+    make_folder(folder)
     if header is None:
         header = header_of(study, seed)
-        _make(folder, header)
+        write_header(folder, header)  # first: a folder with anything else in it is refused
     for part in (SESSIONS, LOGS):
         (folder / part).mkdir(exist_ok=True)
-    with held(folder):
-        for place in (folder, folder / SESSIONS, folder / LOGS):
-            remove_partials(place)
-        _enlarge(folder, header, study)
-        write_whole(folder / CODEBOOK_FILE, codebook_json().encode())
+    for place in (folder, folder / SESSIONS, folder / LOGS):
+        remove_partials(place)
+    header = _enlarged(folder, header, study)
+    write_whole(folder / CODEBOOK_FILE, codebook_json().encode())
+    return header
 
 
 def refuse_another_study(folder: Path, study: ResolvedStudy, seed: int) -> StudyHeader | None:
@@ -64,39 +72,88 @@ def refuse_another_study(folder: Path, study: ResolvedStudy, seed: int) -> Study
         When the folder holds something else, or another study (shows the difference).
     """
     if not (folder / STUDY_FILE).exists():
-        _refuse_other_things(folder)
+        if not _sessions_are_of(folder, study_digest(study, seed)):
+            _refuse_other_things(folder)
         return None
-    header = read_header(folder)
+    try:
+        header = read_header(folder)
+    except InputError as fault:
+        if not _sessions_are_of(folder, study_digest(study, seed)):
+            raise
+        raise InputError(
+            f"{fault}; the sessions are this study's: remove {folder / STUDY_FILE}, and the same "
+            "`lad-study run` writes it anew"
+        ) from None
     found = differences(header.study, header.seed, study, seed)
     if found:
-        more = f" (and {len(found) - 1} more differences)" if len(found) > 1 else ""
+        rest = len(found) - _SHOWN
+        more = f" (and {rest} more differences)" if rest > 0 else ""
         raise InputError(
-            f"{folder}: holds another study: {found[0]}{more}; "
+            f"{folder}: holds another study: {'; '.join(found[:_SHOWN])}{more}; "
             "allowed: the same protocol, course and seed, or another folder"
         )
     return header
 
 
-@contextmanager
-def held(folder: Path) -> Iterator[None]:
-    """Hold an opened study directory: a second run is refused until this one ends or dies.
+def make_folder(folder: Path) -> None:
+    """Make a folder, unless it is there.
 
     Raises
     ------
     InputError
-        When another process holds it.
+        When it cannot be made.
     """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"{folder}: cannot be made: {error.strerror}") from None
+
+
+@contextmanager
+def held(folder: Path) -> Iterator[None]:
+    """Hold a study directory, made when it does not exist, until this run ends or dies.
+
+    Whoever is going to write anything into it holds it first: of two runs that start at the same
+    moment, the one that comes second must not leave a byte.
+
+    Raises
+    ------
+    InputError
+        When another process holds it, it cannot be made or written, or its file system has no
+        locks.
+    """
+    make_folder(folder)
     try:
         import fcntl  # noqa: PLC0415  # POSIX only; elsewhere nothing is held
     except ImportError:  # pragma: no cover - not on POSIX
         yield
         return
-    with (folder / LOGS / _LOCK).open("w") as lock:
+    with _lock_file(folder).open("w") as lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             raise InputError(f"{folder}: another run is writing into it; wait for it") from None
+        except OSError as error:
+            raise InputError(
+                f"{folder}: cannot be locked against a second run ({error.strerror}); "
+                "allowed: a folder on a file system with locks"
+            ) from None
         yield
+
+
+def _lock_file(folder: Path) -> Path:
+    path = folder / _LOCK
+    try:
+        path.touch()
+    except OSError as error:
+        raise InputError(f"{folder}: cannot be written: {error.strerror}") from None
+    return path
+
+
+def _sessions_are_of(folder: Path, digest: str) -> bool:
+    """Tell whether there are sessions, all of the study with this digest."""
+    manifests = [read_manifest(session) for session in session_folders(folder)]
+    return bool(manifests) and all(m is not None and m.study == digest for m in manifests)
 
 
 def _refuse_other_things(folder: Path) -> None:
@@ -104,7 +161,7 @@ def _refuse_other_things(folder: Path) -> None:
         raise InputError(f"{folder}: is a file; allowed: a new folder, or this study's")
     if not folder.exists():
         return
-    strangers = sorted(p.name for p in folder.iterdir() if not is_partial(p))
+    strangers = sorted(p.name for p in folder.iterdir() if p.name != _LOCK and not is_partial(p))
     if strangers:
         raise InputError(
             f"{folder}: holds something else ({strangers[0]}); "
@@ -112,14 +169,9 @@ def _refuse_other_things(folder: Path) -> None:
         )
 
 
-def _enlarge(folder: Path, header: StudyHeader, study: ResolvedStudy) -> None:
-    if study.protocol.cohort.participants > header.protocol.cohort.participants:
-        write_header(folder, header.model_copy(update={"protocol": study.protocol}))
-
-
-def _make(folder: Path, header: StudyHeader) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        write_header(folder, header)  # first: a folder with anything else in it is refused
-    except (FileExistsError, NotADirectoryError, PermissionError) as error:
-        raise InputError(f"{folder}: cannot be made: {error.strerror}") from None
+def _enlarged(folder: Path, header: StudyHeader, study: ResolvedStudy) -> StudyHeader:
+    if study.protocol.cohort.participants <= header.protocol.cohort.participants:
+        return header
+    header = header.model_copy(update={"protocol": study.protocol})
+    write_header(folder, header)
+    return header

@@ -1,7 +1,10 @@
 """Logs of a study directory: not part of the record."""
 
-from collections.abc import Sequence
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
+from typing import BinaryIO
 
 from protocols.record.atomic import naming, write_whole
 
@@ -17,31 +20,53 @@ def write_log(folder: Path, name: str, text: str) -> None:
 
 def write_failure(folder: Path, participant: str, trace: str) -> None:
     """Keep the traceback of a session that raised."""
-    write_log(folder, _failure_name(participant), trace)
+    write_log(folder, _name("failed", participant), trace)
+
+
+def write_given_up(folder: Path, participant: str, reason: str) -> None:
+    """Keep why a session was given up whose processes died: the next run tries it again."""
+    write_log(folder, _name("died", participant), f"{reason}\n")
 
 
 def clear_failure(folder: Path, participant: str) -> None:
-    """Forget an earlier failure of a session that has now succeeded."""
-    (folder / LOGS / _failure_name(participant)).unlink(missing_ok=True)
+    """Forget an earlier failure of a session that is run again, or has now succeeded."""
+    for how in ("failed", "died"):
+        (folder / LOGS / _name(how, participant)).unlink(missing_ok=True)
 
 
 def failures(folder: Path) -> tuple[str, ...]:
-    """Return the participants whose last session raised, sorted."""
-    names = (path.stem for path in (folder / LOGS).glob("failed-*.txt"))
-    return tuple(sorted(name.removeprefix("failed-") for name in names))
+    """Return the participants whose last session raised, or was given up, sorted."""
+    return tuple(sorted({*raised(folder), *_participants(folder, "died")}))
 
 
-def _failure_name(participant: str) -> str:
-    return f"failed-{participant}.txt"
+def raised(folder: Path) -> tuple[str, ...]:
+    """Return the participants whose last session raised: it would raise again."""
+    return tuple(sorted(_participants(folder, "failed")))
 
 
 def failure_reason(folder: Path, participant: str) -> str:
-    """Return the last line of a failed session's traceback; "" when there is none."""
-    try:
-        lines = (folder / LOGS / _failure_name(participant)).read_text().strip().splitlines()
-    except OSError:
-        return ""
-    return lines[-1] if lines else ""
+    """Return in one line what ended a failed session; "" when nothing is known."""
+    for how in ("failed", "died"):
+        with suppress(OSError):
+            return _last_error((folder / LOGS / _name(how, participant)).read_text())
+    return ""
+
+
+def _last_error(trace: str) -> str:
+    """Return the first line of the message a traceback ends with: it follows the code's lines."""
+    lines = trace.strip().splitlines()
+    code = [i for i, line in enumerate(lines) if line.startswith("  ")]
+    after = lines[code[-1] + 1 :] if code else lines
+    return (after or lines or [""])[0]
+
+
+def _participants(folder: Path, how: str) -> Iterator[str]:
+    names = (path.stem for path in (folder / LOGS).glob(_name(how, "*")))
+    return (name.removeprefix(f"{how}-") for name in names)
+
+
+def _name(how: str, participant: str) -> str:
+    return f"{how}-{participant}.txt"
 
 
 def write_timing(folder: Path, participant: str, wall_s: float) -> None:
@@ -63,6 +88,13 @@ def write_warnings(folder: Path, participant: str, warned: Sequence[str]) -> Non
 def _append(folder: Path, name: str, line: str, header: str) -> None:
     path = folder / LOGS / name
     path.parent.mkdir(exist_ok=True)
-    first = "" if path.exists() else f"{header}\n"
-    with naming(path), path.open("a", encoding="utf-8") as stream:
-        stream.write(f"{first}{line}\n")
+    with naming(path), path.open("a+b") as stream:
+        stream.write(f"{_before(stream, header)}{line}\n".encode())
+
+
+def _before(stream: BinaryIO, header: str) -> str:
+    """Return what a new line needs before it: the header, or the end of one that was cut short."""
+    if stream.seek(0, os.SEEK_END) == 0:
+        return f"{header}\n"
+    stream.seek(-1, os.SEEK_END)
+    return "" if stream.read() == b"\n" else "\n"

@@ -29,17 +29,20 @@ class Manifest(Part):
         Every file but the manifest itself, by name.
     versions
         Of the packages that made them.
+    study
+        Digest of the study it belongs to, as in ``study.yaml``; None when it does not say.
     """
 
     schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    study: str | None = None
     files: dict[str, FileEntry]
     versions: dict[str, str]
 
 
-def manifest_of(files: Mapping[str, bytes]) -> bytes:
-    """Return the manifest of these files, as written."""
+def manifest_of(files: Mapping[str, bytes], study: str | None = None) -> bytes:
+    """Return the manifest of these files, as written, in a session of this study."""
     entries = {name: entry(files[name]) for name in sorted(files)}
-    manifest = Manifest(files=entries, versions=package_versions())
+    manifest = Manifest(study=study, files=entries, versions=package_versions())
     text = json.dumps(manifest.model_dump(mode="json", by_alias=True), indent=1)
     return f"{text}\n".encode()
 

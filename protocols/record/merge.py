@@ -19,48 +19,61 @@ LAPS_TABLE = "laps.parquet"
 SURVEYS_TABLE = "surveys.parquet"
 
 STUDY_TABLES = (
-    (PARTICIPANTS_TABLE, PARTICIPANT_FILE, PARTICIPANT_SCHEMA),
-    (LAPS_TABLE, LAPS_FILE, LAP_SCHEMA),
     (SURVEYS_TABLE, SURVEYS_FILE, SURVEY_SCHEMA),
+    (LAPS_TABLE, LAPS_FILE, LAP_SCHEMA),
+    (PARTICIPANTS_TABLE, PARTICIPANT_FILE, PARTICIPANT_SCHEMA),
 )
-"""Name of each table, of the file in a session that its rows come from, and its schema."""
+"""Name of each table, of the file in a session that its rows come from, and its schema.
+
+Participants come last: whoever is in that table is in the others, wherever a run was killed.
+"""
 
 _SESSIONS_PER_ROW_GROUP = 500
 
 
-def build_tables(folder: Path) -> None:
+def build_tables(folder: Path, study: str | None = None) -> None:
     """Build participants, laps and surveys from the whole sessions of a study directory.
 
     The tables depend on the sessions alone, not on the order in which they were finished, and
     never more than a few hundred sessions' rows are in memory.
 
+    Parameters
+    ----------
+    folder
+        The study directory.
+    study
+        Only from sessions of the study with this digest; None for all.
+
     Raises
     ------
     InputError
         When a session's file cannot be read; names it. The old tables are still there then.
+    OSError
+        When they cannot be written. The old tables are still there then, as far as none of the new
+        ones has taken its place.
     """
-    participants = finished_sessions(folder)
-    for table, part, schema in STUDY_TABLES:
-        _build(folder, table, part, schema, participants)
-
-
-def _build(
-    folder: Path, table: str, part: str, schema: pa.Schema, participants: Sequence[str]
-) -> None:
-    target = folder / table
-    partial = partial_beside(target)
+    participants = finished_sessions(folder, study)
+    partials = {folder / table: partial_beside(folder / table) for table, _, _ in STUDY_TABLES}
     try:
-        with naming(target):
-            with pq.ParquetWriter(partial, schema, **parquet_settings(schema)) as writer:
-                for rows in _row_groups(folder / SESSIONS, part, schema, participants):
-                    writer.write_table(rows)
-            with partial.open("rb") as stream:
-                os.fsync(stream.fileno())
-        partial.replace(target)
+        for table, part, schema in STUDY_TABLES:
+            rows = _row_groups(folder / SESSIONS, part, schema, participants)
+            _write(folder / table, partials[folder / table], schema, rows)
+        for target, partial in partials.items():
+            partial.replace(target)
     except BaseException:
-        partial.unlink(missing_ok=True)
+        for partial in partials.values():
+            partial.unlink(missing_ok=True)
         raise
     sync_folder(folder)
+
+
+def _write(target: Path, partial: Path, schema: pa.Schema, groups: Iterator[pa.Table]) -> None:
+    with naming(target):
+        with pq.ParquetWriter(partial, schema, **parquet_settings(schema)) as writer:
+            for rows in groups:
+                writer.write_table(rows)
+        with partial.open("rb") as stream:
+            os.fsync(stream.fileno())
 
 
 def _row_groups(

@@ -19,7 +19,12 @@ from protocols.record.merge import LAPS_TABLE, PARTICIPANTS_TABLE, SURVEYS_TABLE
 from protocols.record.minimal import LAPS, PARTICIPANTS, STEPS, SURVEYS, TableRules, conform
 from protocols.record.parquet import read_parquet
 from protocols.record.session import MODEL_FILE, steps_file
-from protocols.record.sessions import SESSIONS, read_manifest, session_folders
+from protocols.record.sessions import (
+    SESSIONS,
+    finished_sessions,
+    read_manifest,
+    session_folders,
+)
 from protocols.study import StudyProtocol
 from protocols.suggestion import listed
 
@@ -72,7 +77,7 @@ class Study:
     @cached_property
     def surveys(self) -> pa.Table:
         """One row per question asked; without rows when nothing was asked."""
-        if not (self.folder / SURVEYS_TABLE).exists():
+        if self.seed is None and not (self.folder / SURVEYS_TABLE).exists():
             nothing = pa.schema([pa.field(c.name, c.type) for c in SURVEYS.columns]).empty_table()
             return conform(nothing, SURVEYS, self.folder / SURVEYS_TABLE)
         answers = self._table(SURVEYS_TABLE, SURVEYS)
@@ -203,7 +208,7 @@ def _refuse_stale_tables(study: Study) -> None:
     if study.seed is None:  # recorded elsewhere: who is in the tables is its makers' choice
         return
     known = set(study.participants["participant"].to_pylist())
-    new = [name for name in study.sessions() if name not in known]
+    new = [name for name in finished_sessions(study.folder) if name not in known]
     if new:
         raise InputError(
             f"{study.folder / PARTICIPANTS_TABLE}: lacks {len(new)} finished sessions ({new[0]} "

@@ -58,10 +58,11 @@ class SessionRecord:
     model: bytes | None = None
 
 
-def encode(session: SessionRecord) -> dict[str, bytes]:
+def encode(session: SessionRecord, study: str | None = None) -> dict[str, bytes]:
     """Return the session's files: name to content.
 
-    The same session gives the same bytes; the manifest also names the software in use.
+    The same session gives the same bytes; the manifest also names the software in use, and the
+    study it belongs to, by its digest.
     """
     files = {
         PARTICIPANT_FILE: parquet_bytes(_rows([session.participant], PARTICIPANT_SCHEMA)),
@@ -72,7 +73,7 @@ def encode(session: SessionRecord) -> dict[str, bytes]:
         files[steps_file(lap.row.lap)] = parquet_bytes(lap.steps)
     if session.model is not None:
         files[MODEL_FILE] = session.model
-    return files | {MANIFEST_FILE: manifest_of(files)}
+    return files | {MANIFEST_FILE: manifest_of(files, study)}
 
 
 def _rows(rows: Sequence[Any], schema: pa.Schema) -> pa.Table:

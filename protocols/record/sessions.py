@@ -13,7 +13,8 @@ SESSIONS = "sessions"
 def write_session(folder: Path, participant: str, files: Mapping[str, bytes]) -> None:
     """Add a session to a study directory: written beside its place, then renamed.
 
-    A whole session that is already there stays as it is; a damaged one is replaced.
+    A whole session that is already there stays as it is; a damaged one is replaced, and one of
+    another study.
 
     Parameters
     ----------
@@ -32,8 +33,8 @@ def write_session(folder: Path, participant: str, files: Mapping[str, bytes]) ->
         When the files do not match their manifest.
     """
     target = folder / SESSIONS / participant
-    _check(participant, files)
-    if is_whole(target):
+    manifest = _checked(participant, files)
+    if is_whole(target, manifest.study):
         return
     partial = partial_beside(target)
     shutil.rmtree(partial, ignore_errors=True)
@@ -50,11 +51,12 @@ def write_session(folder: Path, participant: str, files: Mapping[str, bytes]) ->
     sync_folder(target.parent)
 
 
-def _check(participant: str, files: Mapping[str, bytes]) -> None:
+def _checked(participant: str, files: Mapping[str, bytes]) -> Manifest:
     manifest = parse_manifest(files.get(MANIFEST_FILE, b""))
     contents = {name: entry(files[name]) for name in files if name != MANIFEST_FILE}
     if manifest is None or manifest.files != contents:
         raise ValueError(f"session {participant}: the files do not match their manifest")
+    return manifest
 
 
 def _put_aside(target: Path) -> None:
@@ -66,13 +68,17 @@ def _put_aside(target: Path) -> None:
         shutil.rmtree(aside, ignore_errors=True)
 
 
-def finished_sessions(folder: Path) -> tuple[str, ...]:
+def finished_sessions(folder: Path, study: str | None = None) -> tuple[str, ...]:
     """Return the participants whose sessions are whole, sorted.
 
-    Whole means: every file of the manifest is there with its size. ``session_faults`` compares
-    checksums too.
+    Parameters
+    ----------
+    folder
+        The study directory.
+    study
+        Only sessions of the study with this digest; None for all.
     """
-    return tuple(path.name for path in session_folders(folder) if is_whole(path))
+    return tuple(path.name for path in session_folders(folder) if is_whole(path, study))
 
 
 def session_folders(folder: Path) -> tuple[Path, ...]:
@@ -83,11 +89,17 @@ def session_folders(folder: Path) -> tuple[Path, ...]:
     return tuple(sorted(p for p in parent.iterdir() if p.is_dir() and not is_partial(p)))
 
 
-def is_whole(session: Path) -> bool:
-    """Tell whether every file of a session's manifest is there with its size."""
+def is_whole(session: Path, study: str | None = None) -> bool:
+    """Tell whether every file of a session's manifest is there with its size.
+
+    With a study's digest, tell also whether it is a session of that study, as far as it says.
+    ``session_faults`` compares checksums too.
+    """
     manifest = read_manifest(session)
-    return manifest is not None and all(
-        _size(session / name) == file.bytes for name, file in manifest.files.items()
+    return (
+        manifest is not None
+        and (study is None or manifest.study in {None, study})
+        and all(_size(session / name) == file.bytes for name, file in manifest.files.items())
     )
 
 

@@ -8,10 +8,11 @@ import pytest
 
 from harness import crew, runner
 from harness.crew import attempt
-from harness.processes import CHANCES
+from harness.processes import CHANCES, Died
 from harness.runner import Outcome, run_study
 from protocols.errors import InputError
 from protocols.record.check import check_study
+from protocols.record.header import read_header
 from protocols.record.reader import open_study
 from protocols.record.rows import participant_id
 
@@ -117,7 +118,51 @@ def test_deaths_of_processes_are_logged(make_plan, unlucky, tmp_path):
     deaths = (out / "logs" / "deaths.csv").read_text().splitlines()
     for name in failed:
         assert deaths.count(f"{name},its process was killed by SIGKILL") == CHANCES - 1
-        assert "SIGKILL" in (out / "logs" / f"failed-{name}.txt").read_text()
+        assert "SIGKILL" in (out / "logs" / f"died-{name}.txt").read_text()
+    assert open_study(out).failed() == failed
+
+
+def test_who_was_given_up_is_tried_again_by_the_same_call(here, make_plan, tmp_path, monkeypatch):
+    """Memory was short, or a machine was taken away: the study is not over."""
+    plan, out = make_plan(participants=2), tmp_path / "s"
+    killed = Died("its process was killed by SIGKILL")
+    with monkeypatch.context() as patch:
+        patch.setattr(Here, "run", lambda _, task, numbers: ((n, killed) for n in numbers))
+        patch.setattr(runner, "rehearse", lambda *_: None)
+        assert run_study(plan, out, 1) == Outcome(2, 0, 0, ("P0001", "P0002"))
+    assert run_study(plan, out, 1) == Outcome(2, 0, 2, ())
+    assert not list((out / "logs").glob("died-*"))
+
+
+def test_of_two_runs_that_start_together_the_second_leaves_no_byte(
+    here, make_plan, tmp_path, monkeypatch
+):
+    """The other one comes between this one's look at the folder and its first byte."""
+    first, second = make_plan(participants=1), make_plan(participants=1, seed=1)
+    out, undisturbed = tmp_path / "s", tmp_path / "alone"
+    run_study(first, undisturbed, 1)
+
+    def meanwhile(*_):
+        monkeypatch.setattr(runner, "rehearse", lambda *_: None)
+        run_study(first, out, 1)
+
+    monkeypatch.setattr(runner, "rehearse", meanwhile)
+    with pytest.raises(InputError, match="seed: 0 there, 1 wanted"):
+        run_study(second, out, 1)
+    assert record(out) == record(undisturbed)
+    assert read_header(out).seed == 0
+
+
+def test_a_foreign_session_is_run_again(here, make_plan, tmp_path):
+    """Somebody has put another seed's session there: the study ends as if nobody had."""
+    ours, theirs = tmp_path / "ours", tmp_path / "theirs"
+    run_study(make_plan(participants=2), ours, 1)
+    run_study(make_plan(participants=2, seed=1), theirs, 1)
+    whole = record(ours)
+    shutil.rmtree(ours / "sessions" / "P0002")
+    shutil.copytree(theirs / "sessions" / "P0002", ours / "sessions" / "P0002")
+    assert run_study(make_plan(participants=2), ours, 1) == Outcome(2, 1, 1, ())
+    assert record(ours) == whole
 
 
 def test_a_write_error_loses_nothing_that_was_finished(here, make_plan, tmp_path, monkeypatch):

@@ -48,6 +48,26 @@ def test_failed_sessions_are_told_from_missing_ones(folder: Path):
     assert "--retry-failed" in failed
 
 
+def test_a_session_of_another_study_is_told(
+    folder: Path, make_session: Callable[..., SessionRecord]
+):
+    """However whole it is, the tables would mix two studies."""
+    open_folder(folder, resolve_study("four-lap", participants=4), 0)
+    write_session(folder, "P0004", encode(make_session(4), "e" * 64))
+    build_tables(folder)
+    (fault,) = check_study(folder)
+    assert "P0004: a session of another study" in fault
+    assert "remove" in fault
+
+
+def test_sessions_beyond_the_plan_are_told(folder: Path):
+    """Somebody has planned fewer, in study.yaml, than were recorded."""
+    head = folder / "study.yaml"
+    head.write_text(head.read_text().replace("participants: 3", "participants: 2"))
+    (fault,) = check_study(folder)
+    assert "1 sessions beyond the 2 participants planned (P0003 first)" in fault
+
+
 def test_a_steps_file_of_no_lap_is_told(tmp_path: Path, make_session: Callable[..., SessionRecord]):
     """A session holds a file for each of its laps, and no other, whatever its manifest says."""
     files = {n: c for n, c in encode(make_session(1)).items() if n != MANIFEST_FILE}
@@ -82,7 +102,7 @@ def test_tables_that_do_not_hold_the_sessions_are_named(
     open_folder(folder, resolve_study("four-lap", participants=4), 0)
     write_session(folder, "P0004", encode(make_session(4)))
     names = [fault.partition(":")[0] for fault in check_study(folder)]
-    assert names == [str(folder / f"{t}.parquet") for t in ("participants", "laps", "surveys")]
+    assert names == [str(folder / f"{t}.parquet") for t in ("surveys", "laps", "participants")]
     build_tables(folder)
     assert check_study(folder) == ()
 

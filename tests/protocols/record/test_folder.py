@@ -1,5 +1,7 @@
 """Opening a study directory for a run."""
 
+import errno
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -7,7 +9,8 @@ import pytest
 from protocols.errors import InputError
 from protocols.load import resolve_study
 from protocols.record.header import read_header
-from protocols.record.store import finished_sessions, held, open_folder
+from protocols.record.session import SessionRecord, encode
+from protocols.record.store import finished_sessions, held, open_folder, write_session
 from protocols.resolved import ResolvedStudy
 
 
@@ -50,8 +53,10 @@ def test_another_study_is_refused_with_the_difference(folder: Path, plan: Resolv
     with pytest.raises(InputError, match="holds another study: seed: 0 there, 1 wanted"):
         open_folder(folder, plan, 1)
     protocol = plan.protocol.model_copy(update={"control_period_s": 0.2, "title": "Mine"})
-    with pytest.raises(InputError, match=r"title: .* wanted \(and 1 more differences\)"):
+    with pytest.raises(InputError, match=r"title: .* wanted; protocol.control_period_s: 0.1 there"):
         open_folder(folder, ResolvedStudy(protocol, plan.course, plan.instruments), 0)
+    with pytest.raises(InputError, match=r"\(and \d+ more differences\)"):
+        open_folder(folder, resolve_study("rd-laps"), 0)
     assert _content(folder) == before
 
 
@@ -85,6 +90,78 @@ def test_killed_before_the_head_was_written_starts_over(tmp_path: Path, plan: Re
 
 def test_two_runs_cannot_write_into_one_folder(folder: Path, plan: ResolvedStudy):
     """While one run holds the folder, another is refused; afterwards it is not."""
-    with held(folder), pytest.raises(InputError, match="another run is writing into it"):
+    with (
+        held(folder),
+        pytest.raises(InputError, match="another run is writing into it"),
+        held(folder),
+    ):
+        pytest.fail("held twice")
+    with held(folder):
         open_folder(folder, plan, 0)
-    open_folder(folder, plan, 0)
+
+
+def test_a_folder_is_held_before_it_is_a_study(tmp_path: Path, plan: ResolvedStudy):
+    """A lock alone is no study, and nothing else either: a run killed right then starts over."""
+    with held(tmp_path / "new"):
+        assert [p.name for p in (tmp_path / "new").iterdir()] == [".lock"]
+    open_folder(tmp_path / "new", plan, 0)
+
+
+def test_a_file_system_without_locks_is_refused_by_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """Two runs could not be kept apart there."""
+
+    def flock(*_):
+        raise OSError(errno.ENOSYS, "Function not implemented")
+
+    monkeypatch.setattr("fcntl.flock", flock)
+    with (
+        pytest.raises(InputError, match=r"new: cannot be locked .*Function not implemented"),
+        held(tmp_path / "new"),
+    ):
+        pytest.fail("held")
+
+
+def test_a_folder_that_cannot_be_written_is_refused_by_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """In one line."""
+
+    def touch(_):
+        raise OSError(errno.EROFS, "Read-only file system")
+
+    monkeypatch.setattr(Path, "touch", touch)
+    with pytest.raises(InputError, match=r"cannot be written: Read-only"), held(tmp_path):
+        pytest.fail("held")
+
+
+def _recorded(folder: Path, plan: ResolvedStudy, session: SessionRecord) -> None:
+    header = open_folder(folder, plan, 0)
+    write_session(folder, "P0001", encode(session, header.digest))
+
+
+def test_a_lost_head_is_written_again_for_the_same_study(
+    tmp_path: Path, plan: ResolvedStudy, make_session: Callable[..., SessionRecord]
+):
+    """The sessions say what study they are of; for another study, they are somebody else's."""
+    _recorded(tmp_path / "s", plan, make_session(1))
+    (tmp_path / "s" / "study.yaml").unlink()
+    with pytest.raises(InputError, match="holds something else"):
+        open_folder(tmp_path / "s", plan, 1)
+    open_folder(tmp_path / "s", plan, 0)
+    assert read_header(tmp_path / "s").study == plan
+    assert finished_sessions(tmp_path / "s") == ("P0001",)
+
+
+def test_a_damaged_head_says_how_to_mend_it(
+    tmp_path: Path, plan: ResolvedStudy, make_session: Callable[..., SessionRecord]
+):
+    """Where the sessions are this study's, it can be removed."""
+    _recorded(tmp_path / "s", plan, make_session(1))
+    head = tmp_path / "s" / "study.yaml"
+    head.write_bytes(head.read_bytes()[:900])
+    with pytest.raises(InputError, match=r"remove .*study.yaml, and the same `lad-study run`"):
+        open_folder(tmp_path / "s", plan, 0)
+    head.unlink()
+    open_folder(tmp_path / "s", plan, 0)

@@ -1,5 +1,6 @@
 """The study's tables, built from its sessions."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pyarrow as pa
@@ -9,6 +10,8 @@ import pytest
 from protocols.errors import InputError
 from protocols.record import merge
 from protocols.record.merge import build_tables
+from protocols.record.reader import open_study
+from protocols.record.session import SessionRecord, encode
 from protocols.record.sessions import write_session
 
 _TABLES = ("participants.parquet", "laps.parquet", "surveys.parquet")
@@ -70,6 +73,49 @@ def test_a_damaged_session_is_left_out_and_an_unreadable_one_named(folder: Path)
     part.write_bytes(content[:-10])
     build_tables(folder)
     assert pq.read_table(folder / "laps.parquet").num_rows == 4
+
+
+@pytest.mark.parametrize("replaced", range(3))
+def test_a_build_that_was_killed_hides_nothing(
+    folder: Path, session_files: dict, monkeypatch: pytest.MonkeyPatch, replaced: int
+):
+    """After any of the three tables: the study is refused as not over, never half read."""
+    again = session_files["P0001"]
+    for name in ("P0001", "P0002", "P0003"):
+        (folder / "sessions" / name).rename(folder / "sessions" / f".partial-{name}-1")
+    write_session(folder, "P0001", again)
+    build_tables(folder)
+    for name in ("P0002", "P0003"):
+        (folder / "sessions" / f".partial-{name}-1").rename(folder / "sessions" / name)
+    replace, calls = Path.replace, []
+
+    def killed(path: Path, target: Path) -> Path:
+        calls.append(target)
+        if len(calls) > replaced:
+            raise KeyboardInterrupt
+        return replace(path, target)
+
+    monkeypatch.setattr(Path, "replace", killed)
+    with pytest.raises(KeyboardInterrupt):
+        build_tables(folder)
+    with pytest.raises(InputError, match=r"lacks 2 finished sessions \(P0002 first\)"):
+        open_study(folder)
+
+
+def test_a_first_build_that_was_killed_is_no_study_without_answers(folder: Path):
+    """In a study of ours, no table of answers means that it was not built."""
+    (folder / "surveys.parquet").unlink()
+    with pytest.raises(InputError, match=r"surveys.parquet: no such file; the same `lad-study"):
+        open_study(folder)
+
+
+def test_sessions_of_another_study_are_left_out(
+    folder: Path, make_session: Callable[..., SessionRecord]
+):
+    """As far as a session says what study it is of."""
+    write_session(folder, "P0004", encode(make_session(4), "e" * 64))
+    build_tables(folder, "d" * 64)
+    assert pq.read_table(folder / "participants.parquet").num_rows == 3
 
 
 def test_rows_of_another_schema_are_refused(folder: Path):

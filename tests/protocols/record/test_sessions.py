@@ -4,6 +4,7 @@ import contextlib
 import pickle
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from protocols.record import sessions
+from protocols.record.session import SessionRecord, encode
 from protocols.record.sessions import (
     finished_sessions,
     is_whole,
@@ -51,6 +53,20 @@ def test_a_whole_session_is_never_overwritten(tmp_path: Path, session_files: dic
     write_session(tmp_path, "P0001", session_files["P0001"])
     write_session(tmp_path, "P0001", session_files["P0002"])
     assert _content(tmp_path / "sessions" / "P0001") == session_files["P0001"]
+
+
+def test_a_session_of_another_study_is_replaced(
+    tmp_path: Path, make_session: Callable[..., SessionRecord]
+):
+    """It does not count as finished here; one that does not say what it is of does."""
+    ours, theirs = "a" * 64, "b" * 64
+    write_session(tmp_path, "P0001", encode(make_session(1), theirs))
+    write_session(tmp_path, "P0002", encode(make_session(2)))
+    assert finished_sessions(tmp_path) == ("P0001", "P0002")
+    assert finished_sessions(tmp_path, ours) == ("P0002",)
+    files = encode(make_session(1), ours)
+    write_session(tmp_path, "P0001", files)
+    assert _content(tmp_path / "sessions" / "P0001") == files
 
 
 @pytest.mark.parametrize("at", range(12))
