@@ -1,6 +1,6 @@
 """Simulated seconds per CPU second of our loop and of its peers, doing the same in one run.
 
-    python bench/lap_loop.py                  everything, about five minutes
+    python bench/lap_loop.py                  everything, about ten minutes
     python bench/lap_loop.py --quick          60 boxes, 180 rays, 20 Hz only
     python bench/lap_loop.py --json rows.json
 
