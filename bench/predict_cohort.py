@@ -1,8 +1,8 @@
 """Predict the assisted laps over the declared grid, and say where the paper falls.
 
     python bench/predict_cohort.py                        2,400 people a cell: half a day and more
-    python bench/predict_cohort.py --people 144 --jobs 2  what docs/cohort.md shows, half an hour
-    python bench/predict_cohort.py --people 96 --centre studies/four-lap-seed0
+    python bench/predict_cohort.py --people 396 --jobs 2 --centre STUDY   what docs/cohort.md
+                                shows, more than an hour; STUDY is a four-lap study of 1,000
 
 A cell's people (bench/cohort/cells.json) drive the shipped study, all five laps through the
 session everybody's laps go through. 200 studies of twelve are drawn from them. With 2,400 people
