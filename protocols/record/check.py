@@ -6,6 +6,7 @@ from pathlib import Path
 import pyarrow as pa
 
 from protocols.errors import InputError
+from protocols.record.again import run_again
 from protocols.record.codebook import CODEBOOK_FILE, codebook_json
 from protocols.record.header import STUDY_FILE, StudyHeader, read_header
 from protocols.record.identity import study_digest
@@ -25,8 +26,6 @@ from protocols.record.sessions import SESSIONS, read_manifest, session_faults, s
 from protocols.record.steps import STEP_SCHEMA
 from protocols.record.tables import LAP_SCHEMA, PARTICIPANT_SCHEMA, SURVEY_SCHEMA
 from protocols.resolved import ResolvedStudy
-
-_AGAIN = "the same `lad-study run` again makes it anew"
 
 Tell = Callable[[str], None]
 """Called with what is being looked at now."""
@@ -48,9 +47,10 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
     if header.seed is None:
         return tuple(_foreign_faults(folder))
     sessions = session_folders(folder)
+    again = f"`{run_again(folder, header)}`"
     faults = [
-        *_header_faults(folder, header),
-        *_missing_sessions(folder, header, sessions),
+        *_header_faults(folder, header, again),
+        *_missing_sessions(folder, header, sessions, again),
         *_sessions_beyond(folder, header, sessions),
     ]
     sound = []
@@ -58,12 +58,12 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
         if tell is not None:
             tell(f"Session {number} of {len(sessions)}")
         found = list(_session_faults(session, header))
-        faults += [f"{fault}; remove {session}, then {_AGAIN}" for fault in found]
+        faults += [f"{fault}; remove {session}, then {again} makes it anew" for fault in found]
         if not found:
             sound.append(session.name)
     # A damaged session cannot be compared with the tables: its own faults say enough.
     if len(sound) == len(sessions):
-        faults += _table_faults(folder, sound)
+        faults += _table_faults(folder, sound, again)
     return tuple(faults)
 
 
@@ -81,7 +81,7 @@ def _foreign_faults(folder: Path) -> Iterator[str]:
         yield str(error)
 
 
-def _header_faults(folder: Path, header: StudyHeader) -> Iterator[str]:
+def _header_faults(folder: Path, header: StudyHeader, again: str) -> Iterator[str]:
     if header.seed is not None and header.digest != study_digest(header.study, header.seed):
         yield (
             f"{folder / STUDY_FILE}: was changed after the run (its digest differs); "
@@ -89,11 +89,11 @@ def _header_faults(folder: Path, header: StudyHeader) -> Iterator[str]:
         )
     path = folder / CODEBOOK_FILE
     if not path.is_file() or path.read_bytes() != codebook_json().encode():
-        yield f"{path}: missing, or not this version's; {_AGAIN}"
+        yield f"{path}: missing, or not this version's; {again} makes it anew"
 
 
 def _missing_sessions(
-    folder: Path, header: StudyHeader, sessions: tuple[Path, ...]
+    folder: Path, header: StudyHeader, sessions: tuple[Path, ...], again: str
 ) -> Iterator[str]:
     there = {session.name for session in sessions}
     planned = map(participant_id, range(1, header.protocol.cohort.participants + 1))
@@ -103,14 +103,11 @@ def _missing_sessions(
     missing = [name for name in absent if name not in gave_up]
     of = f"of {header.protocol.cohort.participants} sessions"
     if missing:
-        yield (
-            f"{len(missing)} {of} are missing ({missing[0]} first); "
-            "the same `lad-study run` again adds them"
-        )
+        yield (f"{len(missing)} {of} are missing ({missing[0]} first); {again} adds them")
     if failed:
         yield (
             f"{len(failed)} {of} failed ({failed[0]} first; see {folder / 'logs'}); "
-            "the same `lad-study run` with --retry-failed runs them again"
+            f"{again} with --retry-failed runs them again"
         )
 
 
@@ -123,7 +120,7 @@ def _sessions_beyond(
     if beyond:
         yield (
             f"{folder / SESSIONS}: {len(beyond)} sessions beyond the {count} participants planned "
-            f"({beyond[0]} first); the same `lad-study run` with more --participants takes them in"
+            f"({beyond[0]} first); `lad-study run` with more --participants takes them in"
         )
 
 
@@ -196,7 +193,7 @@ def _survey_faults(
         )
 
 
-def _table_faults(folder: Path, participants: list[str]) -> Iterator[str]:
+def _table_faults(folder: Path, participants: list[str], again: str) -> Iterator[str]:
     for name, part, schema in STUDY_TABLES:
         path = folder / name
         rows = [session_rows(folder / SESSIONS / p / part, schema) for p in participants]
@@ -204,7 +201,7 @@ def _table_faults(folder: Path, participants: list[str]) -> Iterator[str]:
         try:
             same = read_parquet(path).equals(wanted)
         except InputError as error:
-            yield f"{error}; {_AGAIN}"
+            yield f"{error}; {again} makes it anew"
             continue
         if not same:
-            yield f"{path}: does not hold the rows of the sessions; {_AGAIN}"
+            yield f"{path}: does not hold the rows of the sessions; {again} makes it anew"

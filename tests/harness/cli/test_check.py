@@ -12,7 +12,8 @@ def test_what_is_wrong_is_said_a_line_each(lad_study, tmp_path):
     said = lad_study("check", "s")
     assert said.code == 1
     missing, failed = said.out.splitlines()
-    assert missing.startswith("11 of 12 sessions are missing (P0001 first)")
+    command = "lad-study run four-lap --participants 12 --seed 0 --out s"
+    assert missing == f"11 of 12 sessions are missing (P0001 first); `{command}` adds them"
     assert failed.endswith("--retry-failed runs them again")
 
 
