@@ -48,12 +48,14 @@ class PairedComparison:
         Kolmogorov-Smirnov over all laps, descriptive; None for answers.
     ratio_of_means, mean_of_ratios
         Speedups, reference over condition; None for anything but times.
-    equivalence
-        TOST within the declared margin; None without one.
+    margin, equivalence
+        The declared margin in the outcome's unit, and TOST within it; None without one.
     odds
         Ordinal regression of an answer, a log odds ratio; None for anything else.
     p_holm
-        The signed-rank p after Holm's correction within the family; NaN when not confirmatory.
+        After Holm's correction within the family: the p of TOST where a margin is declared, which
+        makes equivalence what is to be confirmed, else the signed-rank p; NaN when not
+        confirmatory.
     """
 
     name: str
@@ -75,9 +77,15 @@ class PairedComparison:
     ks: TestResult | None = None
     ratio_of_means: TestResult | None = None
     mean_of_ratios: TestResult | None = None
+    margin: float | None = None
     equivalence: TestResult | None = None
     odds: TestResult | None = None
     p_holm: float = math.nan
+
+    @property
+    def p_declared(self) -> float:
+        """The uncorrected p of the test that the declaration asks for."""
+        return self.signed_rank.p if self.equivalence is None else self.equivalence.p
 
 
 def declared_comparisons(frames: StudyFrames) -> tuple[PairedComparison, ...]:
@@ -87,7 +95,7 @@ def declared_comparisons(frames: StudyFrames) -> tuple[PairedComparison, ...]:
         members = [
             i for i, r in enumerate(results) if r.kind == "confirmatory" and r.family == family
         ]
-        adjusted = holm([results[i].signed_rank.p for i in members])
+        adjusted = holm([results[i].p_declared for i in members])
         for i, p in zip(members, adjusted, strict=True):
             results[i] = replace(results[i], p_holm=p)
     return tuple(results)
@@ -138,6 +146,7 @@ def _declared(frames: StudyFrames, comparison: Comparison) -> PairedComparison:
         kind=comparison.kind,
         declared=True,
         family=comparison.family if comparison.kind == "confirmatory" else None,
+        margin=margin,
         equivalence=None if margin is None else paired_tost(differences, margin),
     )
 

@@ -1,6 +1,7 @@
 """How much practice alone would have to do to explain a difference."""
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
@@ -16,12 +17,30 @@ PLAUSIBLE = (0.0, 2.5, 5.0, 10.0, 15.0, 20.0)
 
 
 def order_confounded(frames: StudyFrames) -> bool:
-    """Tell whether the lap's place in the session follows from its condition."""
+    """Tell whether the lap's place in the session follows from its condition, or nearly so."""
     timed = frames.laps.dropna(subset=["lap_time_s"])
     reference = yardstick(frames.parts)
     if reference is None or timed["condition"].nunique() < 2:
         return False
     return not lap_time_design(timed, reference).with_lap
+
+
+def other_orders(frames: StudyFrames) -> tuple[int, int]:
+    """Return how many participants drove the conditions in another order than most, and of whom.
+
+    Who left out laps of the common order has not driven another one.
+    """
+    laps = frames.laps.sort_values("lap")
+    orders = [tuple(own["condition"]) for _, own in laps.groupby("participant", sort=True)]
+    if not orders:
+        return 0, 0
+    ((common, _),) = Counter(orders).most_common(1)
+    return sum(not _part_of(order, common) for order in orders), len(orders)
+
+
+def _part_of(order: tuple[str, ...], whole: tuple[str, ...]) -> bool:
+    left = iter(whole)
+    return all(condition in left for condition in order)
 
 
 def practice_table(frames: StudyFrames, model: Sequence[TestResult]) -> pd.DataFrame:

@@ -96,6 +96,12 @@ def _analysis_faults(
             elif given not in driven and not misspelt:
                 message = f"no lap to analyse has the condition '{given}'; {allowed(given, driven)}"
                 yield Fault(("analyses", i, role), message)
+        if comparison.item is not None and comparison.equivalence_margin is not None:
+            message = (
+                f"equivalence is tested on means, which answers ({comparison.outcome}) do not "
+                "have; allowed: no margin, or an outcome of a lap"
+            )
+            yield Fault(("analyses", i, "equivalence_margin"), message)
         if comparison.condition == comparison.reference:
             message = f"'{comparison.reference}' would be compared with itself"
             yield Fault(("analyses", i, "reference"), message)

@@ -8,7 +8,7 @@ from scipy import stats
 
 from analysis.stats.bootstrap import RESAMPLES, bca_interval
 from analysis.stats.result import TestResult
-from analysis.stats.samples import Sample, present
+from analysis.stats.samples import Sample, settled
 
 _BOOTSTRAP = f"BCa bootstrap over participants, {RESAMPLES:,} resamples"
 
@@ -29,7 +29,7 @@ def cohen_dz(differences: Sample, rng: np.random.Generator, level: float = 0.95)
     ----------
     Lakens (2013), Frontiers in Psychology 4, 863.
     """
-    d = present(differences)
+    d = settled(differences)
     if len(d) < 2:
         return TestResult.missing("d_z", len(d), "needs at least 2 pairs")
     if np.ptp(d) == 0:
@@ -66,7 +66,7 @@ def rank_biserial(differences: Sample, rng: np.random.Generator, level: float = 
     ----------
     Kerby (2014), Comprehensive Psychology 3, 11.IT.3.1.
     """
-    d = present(differences)
+    d = settled(differences)
     if len(d) == 0:
         return TestResult.missing("rank-biserial", 0, "no pair is complete")
     if not d.any():

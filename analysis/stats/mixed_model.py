@@ -14,6 +14,9 @@ from statsmodels.regression.mixed_linear_model import MixedLM
 from analysis.stats.permutation import sign_flip
 from analysis.stats.result import TestResult
 
+INFLATED = 5.0
+"""Variance inflation from which on two effects count as not told apart, the usual limit."""
+
 _MODEL = "linear mixed model, log time ~ condition + (1 | participant)"
 
 
@@ -29,7 +32,7 @@ class Design:
     contrasts
         The conditions that are set against the reference, in order.
     with_lap
-        Whether the lap's place is in the matrix: only where it is not a function of the condition.
+        Whether the lap's place is in the matrix: only where it can be told from the conditions.
     """
 
     matrix: NDArray[np.float64]
@@ -41,12 +44,14 @@ def lap_time_design(laps: pd.DataFrame, reference: str) -> Design:
     """Return the fixed effects of a design, with the lap's place only if it can be told apart.
 
     In a fixed order the place of a lap follows from its condition: the matrix would be singular,
-    and practice and condition are confounded.
+    and practice and condition are confounded. Where one person of many has driven another order,
+    or one lap twice, the matrix is not singular, but practice then hangs on this one person:
+    the place is left out where it would inflate a contrast's variance ``INFLATED`` times.
 
     Parameters
     ----------
     laps
-        One row per finished lap: condition, lap.
+        One row per finished lap: participant, condition, lap.
     reference
         The condition the others are set against.
     """
@@ -56,8 +61,31 @@ def lap_time_design(laps: pd.DataFrame, reference: str) -> Design:
     matrix = np.column_stack(columns)
     lap = laps["lap"].to_numpy(dtype=np.float64)
     wider = np.column_stack([matrix, lap - lap.mean()]) if len(lap) else matrix
-    identified = bool(np.linalg.matrix_rank(wider) > np.linalg.matrix_rank(matrix))
+    identified = _inflation(matrix, wider, laps["participant"]) < INFLATED
     return Design(wider if identified else matrix, tuple(conditions), identified)
+
+
+def _inflation(
+    matrix: NDArray[np.float64], wider: NDArray[np.float64], participants: pd.Series
+) -> float:
+    """Return how many times one more column inflates a contrast's variance, for the worst one.
+
+    Within participants, where the contrasts are estimated; infinite without any information.
+    """
+    if wider.shape == matrix.shape or matrix.shape[1] < 2:
+        return math.inf
+    without, with_it = (_within(m[:, 1:], participants) for m in (matrix, wider))
+    if np.linalg.matrix_rank(with_it) < with_it.shape[1]:
+        return math.inf
+    before, after = (np.diag(np.linalg.inv(m.T @ m)) for m in (without, with_it))
+    return float((after[: len(before)] / before).max())
+
+
+def _within(matrix: NDArray[np.float64], participants: pd.Series) -> NDArray[np.float64]:
+    """Return what is left of each column within participants."""
+    frame = pd.DataFrame(matrix)
+    means = frame.groupby(participants.to_numpy()).transform("mean")
+    return (frame - means).to_numpy()
 
 
 def lap_time_model(

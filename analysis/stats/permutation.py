@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from analysis.stats.mean_difference import mean_difference
 from analysis.stats.result import TestResult
-from analysis.stats.samples import Sample, present
+from analysis.stats.samples import Sample, settled
 
 EXACT_UP_TO = 14
 """Largest number of pairs for which every assignment of signs is tried."""
@@ -46,7 +46,7 @@ def sign_flip(differences: Sample, rng: np.random.Generator, level: float = 0.95
     >>> sign_flip([1.0, 2.0, 3.0], np.random.default_rng(0)).p
     0.25
     """
-    d = present(differences)
+    d = settled(differences)
     if len(d) < 2:
         return TestResult.missing(_NAME, len(d), "needs at least 2 pairs")
     if not d.any():

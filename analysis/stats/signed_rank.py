@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from analysis.stats.result import TestResult
-from analysis.stats.samples import Sample, present
+from analysis.stats.samples import Sample, settled
 
 Zeros = Literal["pratt", "wilcoxon"]
 
@@ -50,7 +50,7 @@ def signed_rank(differences: Sample, *, zeros: Zeros = "pratt", level: float = 0
     >>> signed_rank([1.0, 2.0, 3.0, 4.0, 5.0]).p
     0.0625
     """
-    given = present(differences)
+    given = settled(differences)
     kept, ranks = signed_ranks(given, zeros)
     if len(kept) == 0:
         why = "no pair is complete" if len(given) == 0 else "every difference is zero"

@@ -4,7 +4,7 @@ import numpy as np
 from scipy import stats
 
 from analysis.stats.result import TestResult
-from analysis.stats.samples import Sample, present
+from analysis.stats.samples import Sample, settled
 
 _NAME = "equivalence (TOST)"
 
@@ -43,7 +43,7 @@ def paired_tost(differences: Sample, margin: float, alpha: float = 0.05) -> Test
     """
     if not margin > 0:
         raise ValueError(f"margin: {margin} is out of range; allowed: above 0")
-    d = present(differences)
+    d = settled(differences)
     if len(d) < 2:
         return TestResult.missing(_NAME, len(d), "needs at least 2 pairs")
     if np.ptp(d) == 0:

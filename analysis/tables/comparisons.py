@@ -61,6 +61,8 @@ def _row(c: PairedComparison) -> dict[str, object]:
         **_odds_ratio(c.odds),
         "ks_d": math.nan if c.ks is None else c.ks.statistic,
         "ks_p": math.nan if c.ks is None else c.ks.p,
+        "margin": math.nan if c.margin is None else c.margin,
+        **_estimate("tost", c.equivalence),
         "tost_p": math.nan if c.equivalence is None else c.equivalence.p,
         "notes": "; ".join(_remarks(c)),
     }

@@ -1,5 +1,7 @@
 """Paired comparisons: declared ones, Holm within a family, and what is missing."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -62,7 +64,23 @@ def test_one_participant_gives_reasons_not_numbers(make_study):
         assert c.complete == 1
         assert np.isnan(c.p_holm) or c.p_holm == 1
         if c.difference is not None:
-            assert c.difference.why_not == "needs at least 2 pairs"
+            assert c.difference.notes == ("one pair: no interval and no t test",)
+
+
+def test_a_declared_margin_makes_equivalence_what_is_confirmed(study):
+    """Holm corrects the p of TOST there; Wilcoxon's elsewhere."""
+    analyses = [
+        a.model_copy(update={"kind": "confirmatory"})
+        for a in study.protocol.analyses
+        if a.item is None
+    ]
+    protocol = study.protocol.model_copy(update={"analyses": tuple(analyses)})
+    header = study.header.model_copy(update={"protocol": protocol})
+    found = declared_comparisons(study_frames(replace(study, header=header)))
+    (same,) = [c for c in found if c.margin is not None]
+    assert same.equivalence is not None
+    assert same.p_declared == same.equivalence.p
+    assert [c.p_holm for c in found] == pytest.approx(holm([c.p_declared for c in found]))
 
 
 def test_equal_answers_cannot_be_tested(make_study):

@@ -1,12 +1,13 @@
 """How much practice alone would have to do."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from analysis.frames import study_frames
-from analysis.practice import order_confounded, practice_table
+from analysis.practice import order_confounded, other_orders, practice_table
 from analysis.results import analyse
 from analysis.stats.result import TestResult
 
@@ -19,6 +20,18 @@ def contrast(name, estimate, low, high):
 def test_the_four_lap_order_is_confounded(study):
     """Every condition has its own place in the session."""
     assert order_confounded(study_frames(study))
+
+
+def test_who_drove_another_order_is_counted(study):
+    """Two laps swapped by one person; a lap that was left out is no other order."""
+    frames = study_frames(study)
+    people = frames.laps["participant"].nunique()
+    assert other_orders(frames) == (0, people)
+    laps = frames.laps.copy()
+    first = laps["participant"] == laps["participant"].iloc[0]
+    place = laps["lap"].where(~first, laps["lap"].max() - laps["lap"])
+    assert other_orders(replace(frames, laps=laps.assign(lap=place))) == (1, people)
+    assert other_orders(replace(frames, laps=laps[~first | (laps["lap"] > 2)])) == (0, people)
 
 
 def test_without_practice_nothing_changes(study):

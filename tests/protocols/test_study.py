@@ -33,6 +33,16 @@ def _faults(*laps: Any, **fields: Any) -> dict[str, str]:
     return {".".join(map(str, fault.where)): fault.message for fault in cause.faults}
 
 
+def test_equivalence_is_of_means_not_of_answers():
+    """A t-test of answers on five points would be one nobody signs."""
+    analysis = {
+        "name": "a", "outcome": "driving-assistance.Q7", "condition": "limited",
+        "reference": "baseline", "equivalence_margin": 1.0,
+    }  # fmt: skip
+    faults = _faults("baseline", "limited", analyses=[analysis])
+    assert "answers (driving-assistance.Q7) do not have" in faults["analyses.0.equivalence_margin"]
+
+
 def test_defaults_are_the_papers():
     """Twelve participants from the paper's sample, Table I, takeover with the safeguard on."""
     study = _study("limited")

@@ -4,12 +4,14 @@ import math
 
 from analysis.comparisons import PairedComparison
 from analysis.figures.effects import effect_figure
+from analysis.frames import StudyFrames
 from analysis.outcomes import by_participant
-from analysis.practice import order_confounded
+from analysis.practice import order_confounded, other_orders
 from analysis.report.blocks import Block, Caution, Fact, Facts, Paragraph, Picture, Section
 from analysis.report.words import count, interval, is_p, number, percent, plural
 from analysis.results import StudyResults
 from analysis.roles import yardstick
+from analysis.stats.result import TestResult
 
 ALPHA = 0.05
 
@@ -61,21 +63,33 @@ def _sentence(c: PairedComparison) -> str:
     text = (
         f"{start}{c.reference} {number(c.mean_reference)} s, {c.condition} "
         f"{number(c.mean_condition)} s{speedup}; mean difference "
-        f"{number(c.difference.estimate)} s, 95% interval "
-        f"{interval(c.difference.low, c.difference.high)} s; n = {count(c.complete)}"
+        f"{number(c.difference.estimate)} s, {_certainty(c.difference)}; n = {count(c.complete)}"
         f"{_missing(c)}; {_p(c)}. {_verdict(c)}"
     )
     if c.equivalence is not None and c.equivalence.computed:
-        equal = c.equivalence.p < ALPHA
-        text += (
-            f" Equivalence within the declared margin is {'shown' if equal else 'not shown'} "
-            f"(TOST {is_p(c.equivalence.p)})."
-        )
+        text += _equivalence(c, c.equivalence)
     return text
 
 
+def _certainty(difference: TestResult) -> str:
+    if math.isfinite(difference.low):
+        return f"95% interval {interval(difference.low, difference.high)} s"
+    return "; ".join(difference.notes) or "no interval"
+
+
+def _equivalence(c: PairedComparison, found: TestResult) -> str:
+    corrected = math.isfinite(c.p_holm)
+    p = c.p_holm if corrected else found.p
+    return (
+        f" Equivalence within the declared margin of ±{c.margin:g} {c.unit} is "
+        f"{'shown' if p < ALPHA else 'not shown'} (TOST {is_p(p)}, "
+        f"{'after Holm' if corrected else 'not corrected'}; 90% interval "
+        f"{interval(found.low, found.high)} {c.unit})."
+    )
+
+
 def _verdict(c: PairedComparison) -> str:
-    p = c.signed_rank.p if math.isnan(c.p_holm) else c.p_holm
+    p = c.p_holm if _corrected(c) else c.signed_rank.p
     if not math.isfinite(p) or p >= ALPHA:
         return "No difference is shown; that is not the same as no difference."
     faster = c.signed_rank.estimate < 0
@@ -83,11 +97,16 @@ def _verdict(c: PairedComparison) -> str:
 
 
 def _p(c: PairedComparison) -> str:
-    if math.isfinite(c.p_holm):
+    if _corrected(c):
         return f"Wilcoxon {is_p(c.p_holm)} after Holm"
     if c.signed_rank.computed:
         return f"Wilcoxon {is_p(c.signed_rank.p)}, not corrected"
     return f"no test: {c.signed_rank.why_not}"
+
+
+def _corrected(c: PairedComparison) -> bool:
+    """Tell whether the corrected p is Wilcoxon's: with a margin, it is that of equivalence."""
+    return math.isfinite(c.p_holm) and c.equivalence is None
 
 
 def _missing(c: PairedComparison) -> str:
@@ -111,11 +130,17 @@ def _cautions(results: StudyResults) -> list[str]:
         )
     if order_confounded(frames):
         found.append(
-            "The place of a lap in the session follows from its condition: practice and condition "
-            "are confounded. A difference between conditions may be practice in part, and no test "
-            "on these data can tell; the section on practice shows how much practice it would take."
+            f"The place of a lap in the session follows from its condition{_but(frames)}: practice "
+            "and condition are confounded. A difference between conditions may be practice in "
+            "part, and no test on these data can tell; the section on practice shows how much "
+            "practice it would take."
         )
     return found
+
+
+def _but(frames: StudyFrames) -> str:
+    others, people = other_orders(frames)
+    return f" ({others} of {people} drove another order, too few to tell)" if others else ""
 
 
 def _picture(chosen: tuple[PairedComparison, ...]) -> Picture:

@@ -1,11 +1,12 @@
 """Tests between conditions: confirmatory and exploratory, kept apart as the protocol declares."""
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
 from analysis.comparisons import PairedComparison
 from analysis.report.blocks import Block, Paragraph, Remarks, Section, Shown, table
-from analysis.report.words import count, number, p_value, with_interval
+from analysis.report.words import count, interval, number, p_value, with_interval
 from analysis.results import StudyResults
 from analysis.tables.comparisons import comparison_table
 
@@ -14,33 +15,51 @@ def comparison_section(results: StudyResults) -> Section:
     """Return what was declared first, then everything that was not."""
     confirmatory = [c for c in results.declared if c.kind == "confirmatory"]
     declared = [c for c in results.declared if c.kind == "exploratory"]
+    others = _undeclared(results)
     blocks: list[Block] = []
     if confirmatory:
         caption = (
             "Confirmatory comparisons, as the protocol declared them before the first lap; p after "
-            "Holm's correction within each family."
+            "Holm's correction within each family, of the test of equivalence (TOST) where a "
+            "margin is declared."
         )
-        blocks += _table("confirmatory", caption, confirmatory, [_NAMED, *_TEST, _HOLM])
+        columns = [_NAMED, *_TEST, *_tost(confirmatory), _HOLM, *_KS]
+        blocks += _table("confirmatory", caption, confirmatory, columns)
     else:
         blocks.append(Paragraph("The protocol declares no confirmatory comparison."))
     if declared:
         caption = "Exploratory comparisons that the protocol declares; p not corrected."
-        blocks += _table("exploratory", caption, declared, [_NAMED, *_TEST, _TOST])
-    if results.lap_times:
+        columns = [_NAMED, *_TEST, *_tost(declared), *_KS]
+        blocks += _table("exploratory", caption, declared, columns)
+    if others:
         caption = (
-            "Exploratory: lap times of every two conditions; p not corrected. Differences in "
-            "seconds, condition minus reference. D and its p: Kolmogorov-Smirnov."
+            "Exploratory: lap times of the pairs of conditions that the protocol does not declare; "
+            "p not corrected. Differences in seconds, condition minus reference."
         )
-        columns = [_PAIR, *_TEST, *_KS]
-        blocks += _table("lap_time_comparisons", caption, results.lap_times, columns)
+        blocks += _table("lap_time_comparisons", caption, others, [_PAIR, *_TEST, *_KS])
+    if results.lap_times:
         blocks.append(Paragraph(_ABOUT_KS))
     return Section("comparisons", "Comparisons", tuple(blocks))
 
 
+def _undeclared(results: StudyResults) -> list[PairedComparison]:
+    """Return the pairs that have no place of their own, where their p may be corrected."""
+    declared = {
+        frozenset((c.condition, c.reference)) for c in results.declared if c.outcome == "lap_time_s"
+    }
+    pairs = ((frozenset((c.condition, c.reference)), c) for c in results.lap_times)
+    return [c for pair, c in pairs if pair not in declared]
+
+
+def _tost(comparisons: Sequence[PairedComparison]) -> list[Shown]:
+    """Return the columns of the test of equivalence where a comparison asks for it."""
+    return _TOST if any(c.equivalence is not None for c in comparisons) else []
+
+
 _ABOUT_KS = (
-    "Kolmogorov-Smirnov compares whole distributions and assumes two separate groups; the paper "
-    "used it on laps of the autonomous driver. Here both samples come from the same people, so D "
-    "and its p only describe."
+    "D and its p: Kolmogorov-Smirnov. It compares whole distributions and assumes two separate "
+    "groups; the paper used it on laps of the autonomous driver. Here both samples come from the "
+    "same people, so D and its p only describe."
 )
 
 
@@ -83,7 +102,11 @@ _EFFECTS = [
     _with_interval("rank-biserial", "rank_biserial", 2),
     _with_interval("d_z", "d_z", 2),
 ]
-_TOST = Shown("p (TOST)", lambda r: p_value(r["tost_p"]))
+_TOST = [
+    Shown("margin", lambda r: "–" if math.isnan(r["margin"]) else f"±{r['margin']:g} {r['unit']}"),
+    Shown("90%", lambda r: interval(r["tost_low"], r["tost_high"])),
+    Shown("p (TOST)", lambda r: p_value(r["tost_p"])),
+]
 _KS = [
     Shown("D", lambda r: number(r["ks_d"], 2)),
     Shown("p (KS)", lambda r: p_value(r["ks_p"])),

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from analysis.figures.assistance_map import assistance_map
 from analysis.figures.section_shares import section_figure
 from analysis.report.blocks import Block, Paragraph, Picture, Section, Shown, table
-from analysis.report.words import count, interval, is_p, number, percent, plural
+from analysis.report.words import count, is_p, number, percent, plural
 from analysis.results import StudyResults
 from analysis.stats.result import TestResult
 
@@ -60,8 +60,8 @@ def _overlap(found: TestResult | None) -> str:
     if not found.computed:
         return f"How far the two maps overlap cannot be computed: {found.why_not}."
     return (
-        f"Overlap of the demonstrator's and the model's map: {number(found.estimate, 2)} (95% "
-        f"{interval(found.low, found.high, 2)}; 0 disjoint, 1 the same; n = {found.n} participants"
+        f"Overlap of the demonstrator's and the model's map: {number(found.estimate, 2)} "
+        f"(0 disjoint, 1 the same; n = {found.n} participants"
         f"{''.join(f'; {note}' for note in found.notes)}). Exchanging the two sources within "
         f"participants gives as little overlap or less with {is_p(found.p)}: a small p means that "
         "the two helped in different places or with different spread."

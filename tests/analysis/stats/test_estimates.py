@@ -12,8 +12,11 @@ from analysis.stats.bootstrap import bca_interval
 from analysis.stats.describe import describe
 from analysis.stats.effect_size import cohen_dz, rank_biserial
 from analysis.stats.mean_difference import mean_difference
+from analysis.stats.permutation import sign_flip
 from analysis.stats.ratio import mean_of_ratios, ratio_of_means
 from analysis.stats.samples import present_pairs
+from analysis.stats.signed_rank import signed_rank
+from analysis.stats.tost import paired_tost
 
 
 def rng():
@@ -117,9 +120,31 @@ def test_effects_that_cannot_be_computed_say_why(test):
     assert test([0.0, 0.0, 0.0], rng()).why_not
 
 
-def test_equal_differences_have_no_t_test():
-    """Zero spread: the mean is known, a test is not possible."""
-    assert "all differences are equal (2)" in mean_difference([2.0, 2.0, 2.0]).why_not
+@pytest.mark.parametrize("d", [[2.0, 2.0, 2.0], [0.3 - 0.2, 0.2 - 0.1], [1.5]])
+def test_differences_without_spread_have_a_mean_and_no_test(d):
+    """Equal ones, whatever the seventeenth digit says, and a single one."""
+    found = mean_difference(d)
+    assert found.estimate == pytest.approx(d[0])
+    assert np.isnan([found.low, found.high, found.p]).all()
+    assert found.notes
+    assert not cohen_dz(d, np.random.default_rng(0)).computed
+    assert not paired_tost(d, 5.0).computed
+
+
+@given(st.lists(st.tuples(st.integers(300, 900), st.integers(300, 900)), min_size=3, max_size=14))
+def test_the_unit_decides_no_rank(pairs):
+    """Times to a tenth of a second: ties, zeros and p are those of whole tenths."""
+    a, b = np.array(pairs, dtype=float).T
+    whole, tenths = signed_rank(b - a), signed_rank(b / 10 - a / 10)
+    assert whole.p == pytest.approx(tenths.p, nan_ok=True)
+    assert whole.notes == tenths.notes
+    rng = np.random.default_rng
+    assert sign_flip(b - a, rng(0)).p == pytest.approx(
+        sign_flip(b / 10 - a / 10, rng(0)).p, nan_ok=True
+    )
+    assert rank_biserial(b - a, rng(0)).estimate == pytest.approx(
+        rank_biserial(b / 10 - a / 10, rng(0)).estimate, nan_ok=True
+    )
 
 
 def test_coverage_of_the_d_z_interval_is_near_nominal():

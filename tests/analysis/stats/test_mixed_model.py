@@ -30,6 +30,21 @@ def test_a_fixed_order_does_not_identify_the_lap():
     assert lap_time_design(laps(turned=True), "limited").with_lap
 
 
+def test_one_persons_order_does_not_tell_practice_from_condition():
+    """The matrix is not singular, but the contrasts' variances are inflated many times."""
+    order = {"baseline": 0, "limited": 2, "human": 1, "model": 3}
+    swapped = laps()
+    one = swapped["participant"] == "P3"
+    swapped.loc[one, "lap"] = swapped.loc[one, "condition"].map(order)
+    again = pd.concat([laps(), laps().query("participant == 'P3' and lap == 3").assign(lap=4)])
+    for frame in (swapped, again):
+        assert not lap_time_design(frame, "limited").with_lap
+    half = laps()
+    some = half["participant"].isin([f"P{i}" for i in range(6)])
+    half.loc[some, "lap"] = 3 - half.loc[some, "lap"]
+    assert lap_time_design(half, "limited").with_lap
+
+
 def test_complete_data_give_the_paired_differences():
     """In a complete design the contrasts are the mean differences of log times."""
     frame = laps()
