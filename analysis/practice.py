@@ -53,18 +53,20 @@ def practice_table(frames: StudyFrames, model: Sequence[TestResult]) -> pd.DataF
     frames
         The study.
     model
-        As ``analysis.stats.mixed_model.lap_time_model`` returns it, against the yardstick.
+        The contrasts, against the yardstick, as ``lap_time_model`` or ``own_contrasts`` return
+        them.
 
     Returns
     -------
     DataFrame
         One row per contrast and assumed saving (``practice_percent`` per lap): ``laps_apart``,
-        the remaining ``ratio`` of lap times with ``ratio_low`` and ``ratio_high``, and
-        ``explains_percent``: the saving per lap at which the interval would reach 1 (NaN where
-        practice works in the other direction). Empty where the order is not confounded.
+        the remaining ``ratio`` of lap times with ``ratio_low`` and ``ratio_high``;
+        ``explains_percent``, the saving per lap at which the interval would reach 1, and
+        ``explains_all_percent``, at which the estimate would (NaN where practice works in the
+        other direction). Empty where the order is not confounded.
     """
     columns = ["condition", "reference", "laps_apart", "practice_percent", "ratio", "ratio_low",
-               "ratio_high", "explains_percent"]  # fmt: skip
+               "ratio_high", "explains_percent", "explains_all_percent"]  # fmt: skip
     rows: list[dict[str, object]] = []
     if order_confounded(frames):
         places = frames.laps.groupby("condition")["lap"].mean()
@@ -92,16 +94,22 @@ def _rows(
                 "ratio": float(ends[0]),
                 "ratio_low": float(ends[1]),
                 "ratio_high": float(ends[2]),
-                "explains_percent": _explains(contrast, apart),
+                "explains_percent": _reaching(_nearer_end(contrast), contrast, apart),
+                "explains_all_percent": _reaching(contrast.estimate, contrast, apart),
             }
         )
     return found
 
 
-def _explains(contrast: TestResult, apart: float) -> float:
-    """Return the saving per lap, in %, at which the interval's nearer end reaches no effect."""
-    nearer = contrast.high if contrast.estimate < 0 else contrast.low
-    if apart == 0 or nearer * contrast.estimate <= 0:
-        return math.nan if apart == 0 else 0.0
-    per_lap = nearer / apart
+def _nearer_end(contrast: TestResult) -> float:
+    return contrast.high if contrast.estimate < 0 else contrast.low
+
+
+def _reaching(value: float, contrast: TestResult, apart: float) -> float:
+    """Return the saving per lap, in %, at which a log ratio on the contrast's side reaches 0."""
+    if apart == 0 or math.isnan(value):
+        return math.nan
+    if value * contrast.estimate <= 0:
+        return 0.0
+    per_lap = value / apart
     return 100 * -math.expm1(per_lap) if per_lap < 0 else math.nan

@@ -20,6 +20,7 @@ from analysis.randomness import generator
 from analysis.roles import first, yardstick
 from analysis.stats.map_overlap import map_overlap
 from analysis.stats.mixed_model import lap_time_model
+from analysis.stats.own_contrasts import own_contrasts
 from analysis.stats.result import TestResult
 from analysis.tables.against_paper import paper_table
 from analysis.tables.measures import measure_table
@@ -61,6 +62,8 @@ class StudyResults:
         Lap times of every two conditions, declared or not.
     model
         Mixed model of log lap times: every condition against the yardstick.
+    contrasts
+        The same contrasts from each participant's own laps, each with its own spread.
     practice
         What is left of the model's contrasts under plausible practice; see ``analysis.practice``.
     overlap
@@ -77,6 +80,7 @@ class StudyResults:
     declared: tuple[PairedComparison, ...]
     lap_times: tuple[PairedComparison, ...]
     model: tuple[TestResult, ...]
+    contrasts: tuple[TestResult, ...]
     practice: pd.DataFrame
     overlap: TestResult | None
     surveys: tuple[SurveyResults, ...]
@@ -99,7 +103,7 @@ def analyse(study: Study, progress: Progress | None = None) -> StudyResults:
     if progress is not None:
         progress("Comparing conditions")
     lap_times = lap_time_comparisons(frames)
-    model = _model(frames)
+    model, contrasts = _model(frames), _contrasts(frames)
     surveys = tuple(_survey(frames, instrument) for instrument in study.instruments)
     measures = measure_table(frames, records)
     return StudyResults(
@@ -109,7 +113,8 @@ def analyse(study: Study, progress: Progress | None = None) -> StudyResults:
         declared=declared_comparisons(frames),
         lap_times=lap_times,
         model=model,
-        practice=practice_table(frames, model),
+        contrasts=contrasts,
+        practice=practice_table(frames, contrasts),
         overlap=_overlap(frames, records),
         surveys=surveys,
         measures=measures,
@@ -124,6 +129,11 @@ def _model(frames: StudyFrames) -> tuple[TestResult, ...]:
     if reference is None:
         return ()
     return lap_time_model(frames.laps, reference, generator(frames.study, "mixed model"))
+
+
+def _contrasts(frames: StudyFrames) -> tuple[TestResult, ...]:
+    reference = yardstick(frames.parts)
+    return () if reference is None else own_contrasts(frames.laps, reference)
 
 
 def _overlap(frames: StudyFrames, records: LapRecords) -> TestResult | None:

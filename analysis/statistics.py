@@ -32,6 +32,7 @@ def statistics_json(results: StudyResults) -> str:
         "declared_comparisons": results.declared,
         "lap_times": results.lap_times,
         "mixed_model": results.model,
+        "own_contrasts": results.contrasts,
         "practice": results.practice,
         "map_overlap": results.overlap,
         "surveys": {s.instrument.name: s.comparisons for s in results.surveys},

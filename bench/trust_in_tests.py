@@ -14,12 +14,14 @@ from collections.abc import Callable
 import numpy as np
 import pandas as pd
 
+from analysis.stats.cronbach_alpha import cronbach_alpha
 from analysis.stats.effect_size import cohen_dz, rank_biserial
 from analysis.stats.holm import holm
 from analysis.stats.kolmogorov_smirnov import two_sample_ks
 from analysis.stats.map_overlap import map_overlap
 from analysis.stats.mean_difference import mean_difference
 from analysis.stats.mixed_model import lap_time_model
+from analysis.stats.own_contrasts import own_contrasts
 from analysis.stats.permutation import sign_flip
 from analysis.stats.proportional_odds import log_odds_ratios, proportional_odds
 from analysis.stats.ratio import mean_of_ratios, ratio_of_means
@@ -31,6 +33,7 @@ N = 12
 BETWEEN, WITHIN = 0.3, 0.12  # sd of log lap times between people, and from lap to lap
 EFFECT = -0.12  # log ratio: 11% faster
 MARGIN = 5.0
+TRUE_ALPHA = 4 / 3 * (1 - 4 * 2 / (16 + 4))  # of ``scale``: four items of variance 2, covariance 1
 CUTS = np.array([-2.0, -0.7, 0.5, 1.8])
 
 Rng = np.random.Generator
@@ -54,6 +57,25 @@ def laps(rng: Rng, effect: float) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["participant", "condition", "lap", "lap_time_s"])
 
 
+def unequal_laps(rng: Rng, effect: float) -> pd.DataFrame:
+    """Return lap times of a cohort whose contrasts spread unequally, as our synthetic people's do.
+
+    The limited lap (c1) differs from everybody's other laps by person; the two assisted laps (c2,
+    c3) are driven nearly alike. Standard deviations of log differences: about 0.17 and 0.02.
+    """
+    person = rng.normal(4.2, BETWEEN, N)
+    limited = rng.normal(0, 0.16, N)
+    assisted = rng.normal(0, 0.05, N)
+    spread = {0: 0.05, 1: 0.05, 2: 0.015, 3: 0.015}
+    rows = []
+    for i in range(N):
+        for c in range(4):
+            log_time = person[i] + limited[i] * (c == 1) + assisted[i] * (c > 1)
+            noise = rng.normal(0, spread[c]) + effect * (c == 3)
+            rows.append((f"P{i}", f"c{c}", c, math.exp(log_time + noise)))
+    return pd.DataFrame(rows, columns=["participant", "condition", "lap", "lap_time_s"])
+
+
 def answers(rng: Rng, effect: float, n: int = N) -> tuple[np.ndarray, np.ndarray]:
     """Return answers of n people on five points after a reference and a condition."""
     person = rng.normal(0, 1, n)
@@ -66,6 +88,12 @@ def maps(rng: Rng, shift: float) -> tuple[np.ndarray, np.ndarray]:
     at = np.arange(80)
     centre = 40 + rng.normal(0, 2, (2, N, 1)) + np.array([0.0, shift])[:, None, None]
     return tuple(30 * np.exp(-0.5 * ((at - centre) / 5) ** 2))
+
+
+def scale(rng: Rng) -> pd.DataFrame:
+    """Return answers of N people to four items that measure one thing, each with its own error."""
+    person = rng.normal(0, 1, (N, 1))
+    return pd.DataFrame(person + rng.normal(0, 1, (N, 4)), columns=list("abcd"))
 
 
 def families(rng: Rng) -> float:
@@ -91,6 +119,18 @@ TESTS: dict[str, tuple[Callable[[Rng], float], Callable[[Rng], float] | None]] =
     "mixed model, one contrast of three": (
         lambda r: lap_time_model(laps(r, 0.0), "c1", r)[-1].p,
         lambda r: lap_time_model(laps(r, EFFECT), "c1", r)[-1].p,
+    ),
+    "the same, contrasts of unequal spread": (
+        lambda r: lap_time_model(unequal_laps(r, 0.0), "c1", r)[-1].p,
+        lambda r: lap_time_model(unequal_laps(r, EFFECT), "c1", r)[-1].p,
+    ),
+    "own contrasts, equal spread": (
+        lambda r: own_contrasts(laps(r, 0.0), "c1")[-1].p,
+        lambda r: own_contrasts(laps(r, EFFECT), "c1")[-1].p,
+    ),
+    "own contrasts, unequal spread": (
+        lambda r: own_contrasts(unequal_laps(r, 0.0), "c1")[-1].p,
+        lambda r: own_contrasts(unequal_laps(r, EFFECT), "c1")[-1].p,
     ),
     "Holm, any of three (family-wise)": (families, None),
     "Wilcoxon signed-rank, a Likert item": (
@@ -137,6 +177,12 @@ def intervals() -> dict[str, tuple[Callable[[Rng], TestResult], float]]:
         "mean of ratios, t": (
             lambda r: mean_of_ratios(*pairs(r, EFFECT)), float((reference / condition).mean())),
         "mixed model, t": (lambda r: lap_time_model(laps(r, EFFECT), "c1", r)[-1], EFFECT),
+        "the same, contrasts of unequal spread": (
+            lambda r: lap_time_model(unequal_laps(r, EFFECT), "c1", r)[-1], EFFECT),
+        "own contrasts, unequal spread": (
+            lambda r: own_contrasts(unequal_laps(r, EFFECT), "c1")[-1], EFFECT),
+        "TOST, 90%": (lambda r: paired_tost(r.normal(2.0, 8, N), MARGIN), 2.0),
+        "Cronbach's alpha, Feldt": (lambda r: cronbach_alpha(scale(r)), TRUE_ALPHA),
         "odds ratio, percentile": (
             lambda r: proportional_odds(*answers(r, 1.5)[::-1], r),
             float(log_odds_ratios(table)[0])),
@@ -159,7 +205,7 @@ def main() -> None:
         power = np.mean([effect(rng) <= 0.05 for _ in range(m)]) if effect else math.nan
         print(f"| {name} | {100 * size:.1f}% | {'–' if not effect else f'{100 * power:.0f}%'} |",
               flush=True)  # fmt: skip
-    print("\n| interval of 95% | coverage | without interval |\n|---|---|---|")
+    print("\n| interval of 95% (TOST: 90%) | coverage | without interval |\n|---|---|---|")
     for name, (estimate, truth) in intervals().items():
         rng = np.random.default_rng([options.seed, 2])
         found = [estimate(rng) for _ in range(m)]

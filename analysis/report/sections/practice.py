@@ -19,10 +19,13 @@ def practice_section(results: StudyResults) -> Section:
     if results.model:
         caption = (
             "Exploratory: log lap time ~ condition + (1 | participant). Ratios of (geometric mean) "
-            "lap times, condition / reference: below 1 the condition is faster."
+            "lap times, condition / reference: below 1 the condition is faster. The model takes "
+            "all contrasts to spread alike; the last two columns, from each participant's own "
+            "contrast, do not, and are the ones to read where the standard deviations differ."
         )
-        blocks.append(table("mixed_model", caption, _contrasts(results.model), _MODEL))
-        blocks.append(Remarks(_about(results.model)))
+        frame = _contrasts(results.model, results.contrasts)
+        blocks.append(table("mixed_model", caption, frame, _MODEL))
+        blocks.append(Remarks(_about((*results.model, *results.contrasts))))
     else:
         blocks.append(Paragraph("There are no two conditions to model."))
     if not results.practice.empty:
@@ -30,7 +33,8 @@ def practice_section(results: StudyResults) -> Section:
     return Section("practice", "Mixed model and practice", tuple(blocks))
 
 
-def _contrasts(model: Sequence[TestResult]) -> pd.DataFrame:
+def _contrasts(model: Sequence[TestResult], own: Sequence[TestResult]) -> pd.DataFrame:
+    by_name = {found.name: found for found in own}
     return pd.DataFrame(
         [
             {
@@ -42,12 +46,18 @@ def _contrasts(model: Sequence[TestResult]) -> pd.DataFrame:
                 "ratio_high": math.exp(found.high),
                 "t": found.statistic,
                 "p": found.p,
+                **_own(by_name.get(found.name)),
                 "method": found.method,
                 "notes": "; ".join([*found.checks, *found.notes, found.why_not or ""]).strip("; "),
             }
             for found in model
         ]
     )
+
+
+def _own(found: TestResult | None) -> dict[str, float]:
+    low, high, p = (math.nan,) * 3 if found is None else (found.low, found.high, found.p)
+    return {"own_ratio_low": math.exp(low), "own_ratio_high": math.exp(high), "own_p": p}
 
 
 def _about(model: Sequence[TestResult]) -> tuple[str, ...]:
@@ -106,7 +116,11 @@ def _tipping(row: dict[str, Any]) -> str:
         return f"{pair}: practice would work in the other direction; it cannot explain this."
     if at == 0:
         return f"{pair}: no difference is shown that practice would have to explain."
-    return f"{pair}: practice would have to save {percent(at, 1)} per lap to explain it."
+    all_of_it = row["explains_all_percent"]
+    return (
+        f"{pair}: practice would have to save {percent(at, 1)} per lap to bring 1 into the "
+        f"interval, and {percent(all_of_it, 1)} to explain the whole estimate."
+    )
 
 
 _MODEL = [
@@ -116,4 +130,6 @@ _MODEL = [
     Shown("95%", lambda r: interval(r["ratio_low"], r["ratio_high"], 3)),
     Shown("t", lambda r: number(r["t"], 2)),
     Shown("p", lambda r: p_value(r["p"])),
+    Shown("95%, own spread", lambda r: interval(r["own_ratio_low"], r["own_ratio_high"], 3)),
+    Shown("p, own spread", lambda r: p_value(r["own_p"])),
 ]
