@@ -117,30 +117,53 @@ def run_sessions(
     return workers.run(partial(attempt, plan), numbers)
 
 
-def attempt(plan: "Plan", number: int) -> Finished | Failed:
-    """Run one session; whatever it raises ends this session only."""
-    from harness.session import Session  # noqa: PLC0415  # the runner itself needs no simulator
-    from protocols.record.session import encode  # noqa: PLC0415
+def attempt(plan: "Plan", number: int) -> Finished | Failed | Died:
+    """Run one session; whatever it raises, or ends by, ends this session only.
 
+    Returns
+    -------
+    Finished | Failed | Died
+        Died when no session at all can be run in this process: that is not the participant's
+        failure, and the session may be tried in another process.
+    """
     begun = time.perf_counter()
     with _ONE_AT_A_TIME, warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("default")
         try:
-            files = encode(Session(plan, number, _world(plan)).run(), plan.digest)
-        except Exception:  # noqa: BLE001  # one participant's failure must not end the others'
-            return Failed(traceback.format_exc())
+            files = _session(plan, number)
+        except BaseException:  # noqa: BLE001  # a driver's sys.exit() must not end a worker
+            trace = traceback.format_exc()
+            fault = _fault(plan, _world, _rehearse)
+            return Failed(trace) if fault is None else Died(f"no session can be run there: {fault}")
     warned = tuple(f"{w.filename}:{w.lineno}: {w.category.__name__}: {w.message}" for w in caught)
     return Finished(files, time.perf_counter() - begun, warned)
 
 
+def _session(plan: "Plan", number: int) -> dict[str, bytes]:
+    from harness.session import Session  # noqa: PLC0415  # the runner itself needs no simulator
+    from protocols.record.session import encode  # noqa: PLC0415
+
+    return encode(Session(plan, number, _world(plan)).run(), plan.digest)
+
+
 def _rehearsal(plan: "Plan", _number: int) -> InputError | None:
+    return _fault(plan, _rehearse)
+
+
+def _rehearse(plan: "Plan") -> None:
     from harness import casting  # noqa: PLC0415  # the runner itself needs no simulator
 
+    casting.rehearse(plan)
+
+
+def _fault(plan: "Plan", *preparations: Callable[["Plan"], object]) -> InputError | None:
+    """Return why this process cannot prepare for any session; None when it can."""
     try:
-        casting.rehearse(plan)
+        for prepare in preparations:
+            prepare(plan)
     except InputError as error:
         return error
-    except Exception as error:  # noqa: BLE001  # somebody's own parts may fail in any way
+    except BaseException as error:  # noqa: BLE001  # somebody's own parts may fail in any way
         at = traceback.extract_tb(error.__traceback__)[-1]
         reason = f"{type(error).__name__}: {error} ({at.filename}:{at.lineno})"
         return InputError(f"{plan.study.protocol.name}: nobody can be made ready for it: {reason}")

@@ -34,6 +34,9 @@ _ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", 
 class Died:
     """The process that ran a task ended without an answer.
 
+    A task may answer this itself, to say that its process is unfit for any task: the process is
+    then ended, and the number tried in another one.
+
     Attributes
     ----------
     reason
@@ -133,18 +136,24 @@ class _Worker:
         theirs.close()  # else a dead worker's pipe would stay open
 
     def answer(self) -> Any:
-        """Return what the worker answers; ``Died`` when it cannot any more."""
+        """Return what the worker answers; ``Died``, and the worker has, when it has none."""
         try:
-            return self.pipe.recv()
+            answer = self.pipe.recv()
         except (EOFError, OSError):
-            self.dismiss()
-            self.process.join()
+            self._end()
             return Died(_cause(self.process.exitcode))
+        if isinstance(answer, Died):
+            self._end()
+        return answer
 
     def dismiss(self) -> None:
         """End the worker, whatever it is doing; it holds nothing that could be lost."""
         self.pipe.close()
         self.process.terminate()
+
+    def _end(self) -> None:
+        self.dismiss()
+        self.process.join()
 
 
 def _serve(pipe: Connection) -> None:

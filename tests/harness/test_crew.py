@@ -10,6 +10,19 @@ from protocols.errors import InputError
 pytestmark = pytest.mark.usefixtures("ready")
 
 
+QUITTER = """
+import sys
+
+class Quitter:
+    def start_lap(self, lap, rng): pass
+    def act(self, sight): {end}
+
+def quitter(setup): return Quitter()
+
+def never(setup): {end}
+"""
+
+
 def sessions(plan, numbers, jobs):
     """Return what became of each session, by number; the last word counts."""
     with hire(jobs) as workers:
@@ -37,6 +50,25 @@ def test_a_session_that_raises_fails_alone(make_plan, unlucky, tmp_path):
     assert sorted(failed) == unlucky(plan)
     assert all(ended[n].trace.endswith("RuntimeError: I am in no mood\n") for n in failed)
     assert all(isinstance(ended[n], Finished) for n in ended if n not in failed)
+
+
+@pytest.mark.parametrize("end", ["sys.exit(3)", "raise KeyboardInterrupt"])
+def test_who_would_end_the_program_ends_a_session(make_plan, tmp_path, end):
+    """The worker goes on, and the traceback says who it was; so it is in the rehearsal."""
+    (tmp_path / "quitter.py").write_text(QUITTER.format(end=end))
+    ended = sessions(make_plan(driver="{use: 'quitter:quitter'}"), [1, 2], 1)
+    assert {type(session) for session in ended.values()} == {Failed}
+    assert all(f"def act(self, sight): {end}" in session.trace for session in ended.values())
+    with hire(1) as workers, pytest.raises(InputError, match=r"quitter\.py"):
+        rehearse(workers, make_plan(driver="{use: 'quitter:never'}"))
+
+
+def test_where_nobody_can_be_made_the_process_is_unfit(make_plan):
+    """That is not the participant's failure: another process may run the session."""
+    answer = attempt(make_plan(driver="{use: 'no_module:driver'}"), 3)
+    assert isinstance(answer, Died)
+    assert "No module named 'no_module'" in answer.reason
+    assert "\n" not in answer.reason
 
 
 def test_a_session_that_kills_its_process_fails_alone(make_plan, unlucky):

@@ -40,6 +40,10 @@ def killed(folder, fatal, times, number):
         os.kill(os.getpid(), signal.SIGKILL)
     return number
 
+def unfit(number):
+    from harness.processes import Died
+    return Died(f"unfit: {os.getpid()}") if number == 1 else number
+
 class Fatal:
     def __reduce__(self):
         os.kill(os.getpid(), signal.SIGKILL)
@@ -133,6 +137,15 @@ def test_a_process_that_ends_by_itself_is_told_from_a_killed_one(tasks):
     """The exit code is part of the reason."""
     reasons = {a.reason for n, a in run(tasks.ended, [1, 2], 1) if isinstance(a, Died)}
     assert reasons == {"its process ended by itself with exit code 7"}
+
+
+def test_a_process_that_says_it_is_unfit_is_replaced(tasks):
+    """Each try is made in a process of its own, and the others' numbers are answered."""
+    answers = run(tasks.unfit, [1, 2], 1)
+    unfit = [a for n, a in answers if n == 1]
+    assert [a.again for a in unfit] == [True] * (CHANCES - 1) + [False]
+    assert len({a.reason for a in unfit}) == CHANCES
+    assert (2, 2) in answers
 
 
 def test_linear_algebra_uses_one_thread_and_only_in_workers(tasks, monkeypatch):
