@@ -1,13 +1,20 @@
 """Tasks on a Dask cluster, when one machine is not enough: ``pip install 'lad-study[cluster]'``."""
 
 import logging
+import pickle
+import pkgutil
+import socket
+from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
 from contextlib import contextmanager
-from itertools import islice
+from dataclasses import replace
+from functools import partial
+from queue import Empty, Queue
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from harness.processes import Died
+from harness.crew import Failed
+from harness.processes import CHANCES, Died
 from protocols.errors import InputError
 
 if TYPE_CHECKING:  # an extra
@@ -18,10 +25,33 @@ T = TypeVar("T")
 PATIENCE_S = 15
 """How long a scheduler may take to answer, and its first worker to be there, s."""
 
+LOOK_S = 5
+"""How often it is looked whether there still is a worker while none answers, s."""
+
 LOST = "the Dask scheduler was lost; the same command again goes on"
 
 AHEAD = 2
 """Tasks per worker thread that are handed out: the one it is in, and the next."""
+
+
+_LOG = logging.getLogger(__name__)
+"""What a person has to know at once; without further settings it goes to standard error."""
+
+
+class UnfitError(Exception):
+    """No task can be run in this worker.
+
+    Parameters
+    ----------
+    host, address
+        The worker's machine, and Dask's name for the worker.
+    reason
+        As a sentence's end.
+    """
+
+    def __init__(self, host: str, address: str, reason: str) -> None:
+        super().__init__(host, address, reason)  # all of them: it is pickled
+        self.host, self.address, self.reason = host, address, reason
 
 
 class Cluster:
@@ -31,10 +61,12 @@ class Cluster:
     ----------
     client
         Connected to the scheduler.
+    scheduler
+        Its address, as a person gave it.
     """
 
-    def __init__(self, client: "Client") -> None:
-        self._client = client
+    def __init__(self, client: "Client", scheduler: str) -> None:
+        self._client, self._scheduler = client, scheduler
 
     def run(
         self, task: Callable[[int], T], numbers: Iterable[int]
@@ -42,7 +74,8 @@ class Cluster:
         """Run a task for every number, and yield each with its answer as soon as it is there.
 
         A number whose worker is lost is given to another one; when several were lost over it, it
-        is given up. Workers may come and go.
+        is given up. A worker that answers ``Died`` leaves the cluster, and its number is tried
+        elsewhere. Workers may come and go; while there is none, that is logged, and waited for.
 
         Parameters
         ----------
@@ -56,22 +89,28 @@ class Cluster:
         ConnectionError
             When the scheduler is lost.
         """
-        from distributed import as_completed  # noqa: PLC0415  # an extra
-
-        waiting, running = iter(numbers), as_completed()
+        waiting, deaths = deque(numbers), Counter[int]()
+        there, done = partial(_on_worker, pickle.dumps(task)), Queue["Future[Any]"]()
         under_way: dict[Future[Any], int] = {}
         while True:
             with self._loss_told():
                 room = max(1, AHEAD * self._threads()) - len(under_way)
-                for number in islice(waiting, max(0, room)):
-                    future = self._client.submit(task, number, pure=False)
+                for _ in range(min(room, len(waiting))):
+                    number = waiting.popleft()
+                    future = self._client.submit(there, number, pure=False)
                     under_way[future] = number
-                    running.add(future)
+                    future.add_done_callback(done.put)
                 if not under_way:
                     return
-                future = next(running)
+                future = self._next(done)
                 answer = self._answer(future)
-            yield under_way.pop(future), answer
+            number = under_way.pop(future)
+            if isinstance(answer, Died) and answer.again:
+                deaths[number] += 1
+                answer = replace(answer, again=deaths[number] < CHANCES)
+                if answer.again:
+                    waiting.append(number)
+            yield number, answer
 
     @contextmanager
     def _loss_told(self) -> Iterator[None]:
@@ -87,13 +126,75 @@ class Cluster:
     def _threads(self) -> int:
         return sum(self._client.nthreads().values())
 
+    def _next(self, done: "Queue[Future[Any]]") -> "Future[Any]":
+        """Wait for a task's end; say once when there is nobody left to run any."""
+        said = False
+        while True:
+            try:
+                return done.get(timeout=LOOK_S)
+            except Empty:
+                alone = not self._threads()
+            if alone and not said:
+                _LOG.warning(
+                    "no worker is left at %s: waiting for one (Ctrl-C stops; what was finished "
+                    "is kept)",
+                    self._scheduler,
+                )
+            said = alone
+
     def _answer(self, future: "Future[Any]") -> Any:
+        from distributed import KilledWorker  # noqa: PLC0415  # an extra
+
         if future.cancelled():
             raise ConnectionError(LOST)
         error = future.exception()
-        if error is not None:  # of the cluster: a task's own exceptions are part of its answer
+        if error is None:
+            return _placed(*future.result())
+        if isinstance(error, UnfitError):
+            self._client.retire_workers([error.address])
+            return Died(f"on {error.host}: {error.reason}", again=True)
+        if isinstance(error, KilledWorker):  # Dask has tried it several times
             return Died(f"{type(error).__name__}: {error}")
-        return future.result()
+        self._retire_strangers()
+        return Died(f"{type(error).__name__}: {error}", again=True)
+
+    def _retire_strangers(self) -> None:
+        """Have the workers leave that do not have this package, and cannot say so themselves."""
+        found = self._client.run(pkgutil.get_data, "harness", "__init__.py", on_error="return")
+        strangers = [address for address, content in found.items() if content is None]
+        if strangers:
+            self._client.retire_workers(strangers)
+
+
+def _on_worker(task: bytes, number: int) -> tuple[str, Any]:
+    """Return this machine's name and a task's answer.
+
+    Raises
+    ------
+    UnfitError
+        When the task cannot even be loaded, or says that none can be run here. As an exception,
+        because a result would have to be moved to another worker before this one may leave.
+    """
+    from distributed import get_worker  # noqa: PLC0415  # an extra
+
+    host, address = socket.gethostname(), get_worker().address
+    try:
+        load = pickle.loads(task)  # noqa: S301  # our own
+    except BaseException as error:
+        raise UnfitError(host, address, f"{type(error).__name__}: {error}") from error
+    answer = load(number)
+    if isinstance(answer, Died):
+        raise UnfitError(host, address, answer.reason)
+    return host, answer
+
+
+def _placed(host: str, answer: Any) -> Any:
+    """Return an answer that says where it failed, if it did."""
+    if isinstance(answer, Failed):
+        return replace(answer, trace=f"On {host}:\n{answer.trace}")
+    if isinstance(answer, InputError):
+        return InputError(*(f"{fault} (on {host})" for fault in answer.faults))
+    return answer
 
 
 @contextmanager
@@ -115,14 +216,14 @@ def cluster(scheduler: str) -> Iterator[Cluster]:
         logging.getLogger(name).setLevel(logging.CRITICAL)  # what matters is raised
     try:
         client = Client(scheduler, timeout=PATIENCE_S)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, TypeError) as error:  # the last one by tls:// without keys
         raise InputError(
             f"--scheduler: no Dask scheduler answers at {scheduler!r} ({type(error).__name__}); "
             "allowed: an address like tcp://host:8786"
         ) from None
     with client:
         _wait_for_a_worker(client, scheduler)
-        yield Cluster(client)
+        yield Cluster(client, scheduler)
 
 
 def _wait_for_a_worker(client: "Client", scheduler: str) -> None:

@@ -2,11 +2,14 @@
 
 import socket
 import sys
+from functools import partial
 
 import pytest
 
 from harness import cluster
-from harness.processes import Died
+from harness.cluster import UnfitError
+from harness.crew import Failed
+from harness.processes import CHANCES, Died
 from protocols.errors import InputError
 
 
@@ -17,7 +20,9 @@ def test_without_dask_the_extra_is_named(monkeypatch):
         cluster.cluster("tcp://127.0.0.1:8786").__enter__()
 
 
-@pytest.mark.parametrize("address", ["nonsense://here", "tcp://127.0.0.1:{free}"])
+@pytest.mark.parametrize(
+    "address", ["nonsense://here", "tls://127.0.0.1:{free}", "tcp://127.0.0.1:{free}"]
+)
 def test_where_no_scheduler_answers_the_address_is_named(monkeypatch, address):
     """The address, and what one looks like, are said within the patience there is."""
     pytest.importorskip("distributed")
@@ -31,13 +36,35 @@ def test_where_no_scheduler_answers_the_address_is_named(monkeypatch, address):
     assert "tcp://host:8786" in str(error.value)
 
 
+def double(number):
+    """Return what the cluster is to work out."""
+    return 2 * number
+
+
+def failing(answer, number):
+    """Return this in place of the answer for number 3."""
+    return answer if number == 3 else number
+
+
+def choosy(worker, number):
+    """Run on no other worker than this one."""
+    import distributed
+
+    there = distributed.get_worker().address
+    return number if there == worker else Died("no such driver")
+
+
 class Future:
     """Something a cluster was asked to do, and what became of it."""
 
-    def __init__(self, answer):
-        self.answer = answer
+    def __init__(self, answer, ended):
+        self.answer, self.ended = answer, ended
+
+    def add_done_callback(self, tell):
+        tell(self)
 
     def cancelled(self):
+        self.ended()
         return self.answer is None
 
     def exception(self):
@@ -48,66 +75,143 @@ class Future:
 
 
 class Client:
-    """A cluster of two threads that does everything at once."""
+    """A cluster of single threads that does everything at once, on the worker that came last."""
 
     def __init__(self):
         self.under_way, self.most = 0, 0
         self.status, self.fault = "running", None
+        self.workers, self.strangers = ["tcp://a", "tcp://b"], []
+        self.happening = {}
 
     def nthreads(self):
         if self.fault:
             raise self.fault
-        return {"tcp://a": 1, "tcp://b": 1}
+        return dict.fromkeys(self.workers, 1)
 
     def submit(self, task, number, *, pure):
         assert not pure
         self.under_way += 1
         self.most = max(self.most, self.under_way)
-        return Future(task(number))
+        try:
+            answer = self.happening[number] if number in self.happening else task(number)
+        except UnfitError as error:
+            answer = error
+        return Future(answer, self.ended)
+
+    def ended(self):
+        self.under_way -= 1
+
+    @property
+    def address(self):
+        return self.workers[-1]
+
+    def retire_workers(self, addresses):
+        self.workers = [address for address in self.workers if address not in addresses]
+
+    def run(self, function, *arguments, on_error):
+        here = function(*arguments)
+        return {w: None if w in self.strangers else here for w in self.workers}
 
 
 @pytest.fixture
 def run(monkeypatch):
-    """Return the function that runs a task for numbers on such a cluster."""
+    """Return such a cluster, and the function that runs a task for numbers on it."""
     distributed = pytest.importorskip("distributed")
     client = Client()
-
-    def as_completed():
-        waiting = []
-
-        class Completed:
-            add = staticmethod(waiting.append)
-
-            def __next__(self):
-                client.under_way -= 1
-                return waiting.pop()
-
-        return Completed()
-
-    monkeypatch.setattr(distributed, "as_completed", as_completed)
-    return client, lambda task, numbers: list(cluster.Cluster(client).run(task, numbers))
+    monkeypatch.setattr(distributed, "get_worker", lambda: client)
+    monkeypatch.setattr(socket, "gethostname", lambda: "node7")
+    workers = cluster.Cluster(client, "tcp://head:8786")
+    return client, lambda task, numbers: list(workers.run(task, numbers))
 
 
 def test_no_more_than_a_few_tasks_are_on_the_cluster(run):
     """All numbers are answered, and answers never pile up."""
     client, answers = run
-    assert sorted(answers(lambda n: n * n, range(50))) == [(n, n * n) for n in range(50)]
+    assert sorted(answers(double, range(50))) == [(n, 2 * n) for n in range(50)]
     assert client.most == 2 * cluster.AHEAD
 
 
 def test_a_number_that_the_cluster_gives_up_has_died(run):
-    """The cluster's reason is kept, and nothing else is lost."""
+    """Dask has tried it on several workers; its reason is kept, and nothing else is lost."""
+    client, answers = run
+    from distributed import KilledWorker
+
+    client.happening[3] = KilledWorker("task", client, 3)
+    told = dict(answers(double, range(5)))
+    assert told.pop(3).reason.startswith("KilledWorker: ")
+    assert told == {0: 0, 1: 2, 2: 4, 4: 8}
+
+
+def test_a_worker_that_can_run_nothing_leaves(run):
+    """Its numbers are run by another one, and the machine's name is told."""
+    client, answers = run
+    told = answers(partial(choosy, "tcp://a"), range(20))
+    assert client.workers == ["tcp://a"]
+    assert sorted(n for n, answer in told if answer == n) == list(range(20))
+    died = [answer for _, answer in told if isinstance(answer, Died)]
+    assert set(died) == {Died("on node7: no such driver", again=True)}
+    assert len(died) <= 2 * cluster.AHEAD
+
+
+def test_a_number_that_no_worker_can_run_is_given_up(run):
+    """After a few workers, of which more keep coming."""
+    client, answers = run
+    client.workers = [f"tcp://{n}" for n in range(9)]
+    told = answers(partial(choosy, "tcp://none"), [1])
+    assert [answer.again for _, answer in told] == [True] * (CHANCES - 1) + [False]
+    assert "on node7" in told[-1][1].reason
+
+
+def test_a_worker_without_this_package_leaves(run):
+    """It cannot even say so: what it raises is Dask's, and says nothing about where."""
+    client, answers = run
+    client.strangers = ["tcp://b"]
+    client.happening[1] = ModuleNotFoundError("No module named 'harness'")
+    told = answers(double, [1])
+    assert client.workers == ["tcp://a"]
+    assert len(told) == CHANCES
+    assert told[-1][1] == Died("ModuleNotFoundError: No module named 'harness'")
+
+
+@pytest.mark.parametrize(
+    ("answer", "told"),
+    [
+        (Failed("Traceback"), Failed("On node7:\nTraceback")),
+        (InputError("no such driver"), InputError("no such driver (on node7)")),
+    ],
+)
+def test_failures_name_the_machine(run, answer, told):
+    """A failure may be a machine's."""
     _, answers = run
-    told = dict(answers(lambda n: MemoryError("worker lost") if n == 3 else n, range(5)))
-    assert told.pop(3) == Died("MemoryError: worker lost")
-    assert told == {0: 0, 1: 1, 2: 2, 4: 4}
+    assert repr(dict(answers(partial(failing, answer), range(5)))[3]) == repr(told)
+
+
+def test_when_no_worker_is_left_that_is_said_once(run, monkeypatch, caplog):
+    """The run waits, and goes on as soon as there is one."""
+    client, answers = run
+    monkeypatch.setattr(cluster, "LOOK_S", 0.01)
+    looks, held = [], []
+    monkeypatch.setattr(Future, "add_done_callback", lambda f, tell: held.append((f, tell)))
+
+    def nthreads():
+        looks.append(None)
+        if len(looks) == 5:
+            for future, tell in held:
+                tell(future)
+        return {}
+
+    monkeypatch.setattr(client, "nthreads", nthreads)
+    assert answers(double, [1]) == [(1, 2)]
+    (said,) = caplog.messages
+    assert said.startswith("no worker is left at tcp://head:8786: waiting for one (Ctrl-C stops")
 
 
 def test_a_lost_scheduler_is_an_error_of_the_run(run):
     """Not of the participants under way, who are going to be run again."""
-    _, answers = run
+    client, answers = run
+    client.happening[3] = None
     with pytest.raises(ConnectionError, match="scheduler was lost"):
-        answers(lambda n: None if n == 3 else n, range(5))
+        answers(double, range(5))
 
 
 @pytest.mark.parametrize(
@@ -123,7 +227,7 @@ def test_a_scheduler_lost_in_any_call_is_told_in_the_same_words(run, status, fau
     client, answers = run
     client.status, client.fault = status, fault
     with pytest.raises(ConnectionError, match=r"^the Dask scheduler was lost; the same command"):
-        answers(lambda n: n, range(5))
+        answers(double, range(5))
 
 
 def test_a_fault_of_ours_is_not_taken_for_a_lost_scheduler(run):
@@ -131,4 +235,4 @@ def test_a_fault_of_ours_is_not_taken_for_a_lost_scheduler(run):
     client, answers = run
     client.fault = RuntimeError("something else")
     with pytest.raises(RuntimeError, match="something else"):
-        answers(lambda n: n, range(5))
+        answers(double, range(5))
