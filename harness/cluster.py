@@ -2,7 +2,6 @@
 
 import logging
 import pickle
-import pkgutil
 import socket
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator
@@ -155,15 +154,7 @@ class Cluster:
             return Died(f"on {error.host}: {error.reason}", again=True)
         if isinstance(error, KilledWorker):  # Dask has tried it several times
             return Died(f"{type(error).__name__}: {error}")
-        self._retire_strangers()
         return Died(f"{type(error).__name__}: {error}", again=True)
-
-    def _retire_strangers(self) -> None:
-        """Have the workers leave that do not have this package, and cannot say so themselves."""
-        found = self._client.run(pkgutil.get_data, "harness", "__init__.py", on_error="return")
-        strangers = [address for address, content in found.items() if content is None]
-        if strangers:
-            self._client.retire_workers(strangers)
 
 
 def _on_worker(task: bytes, number: int) -> tuple[str, Any]:

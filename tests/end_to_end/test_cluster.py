@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 
@@ -12,19 +13,44 @@ from protocols.record.check import check_study
 
 pytest.importorskip("distributed")
 
+ODD = """\
+schema: 1
+name: odd
+title: A driver of one's own
+cohort: {{participants: 8, driver: {{use: 'odd_driver:patient', options: {{go: '{go}'}}}}}}
+conditions:
+  baseline: {{}}
+laps:
+  - {{condition: baseline, time_limit_s: 3}}
+"""
+
+DRIVER = """\
+import time
+from pathlib import Path
+from lad.command import Command
+
+class Patient:
+    def __init__(self, go): self.go = go
+    def start_lap(self, lap, rng):
+        while not self.go.exists(): time.sleep(0.01)
+    def act(self, sight): return Command(0.2, 0.0)
+
+def patient(setup): return Patient(Path(setup.options["go"]))
+"""
+
 
 @pytest.fixture
 def dask(tmp_path, packages):
     """Return the function that starts one of Dask's commands, with what it says in a file."""
     started = []
 
-    def begin(command, *arguments):
+    def begin(command, *arguments, path=packages):
         log = tmp_path / f"{len(started)}.log"
         with log.open("w") as out:
             process = subprocess.Popen(  # noqa: S603  # Dask's own command
                 [sys.executable, "-m", f"distributed.cli.dask_{command}", *map(str, arguments)],
                 cwd=tmp_path,
-                env={**os.environ, "PYTHONPATH": str(packages)},
+                env={**os.environ, "PYTHONPATH": str(path)},
                 stdout=out,
                 stderr=out,
                 start_new_session=True,
@@ -52,12 +78,14 @@ def scheduler(dask, tmp_path, wait_until):
 
 
 @pytest.fixture
-def add_worker(dask, scheduler, wait_until):
+def add_worker(dask, scheduler, wait_until, packages):
     """Return the function that adds a worker process to the cluster."""
 
-    def add(threads):
+    def add(threads, *folders):
+        path = os.pathsep.join(map(str, [packages, *folders]))
         process, log = dask(
             "worker", scheduler[1], "--no-nanny", "--no-dashboard", "--nthreads", threads,
+            path=path,
         )  # fmt: skip
         wait_until(lambda: "Registered to" in log.read_text())
         return process
@@ -83,6 +111,41 @@ def test_a_study_survives_the_death_of_a_worker(
     assert "Traceback" not in ended.err
     assert record(out) == undisturbed
     assert check_study(out) == ()
+
+
+def test_a_machine_that_lacks_something_leaves(scheduler, add_worker, start, wait_until, tmp_path):
+    """Its sessions are run elsewhere, and the log says which machine it was and what it lacks."""
+    out, go, folder = tmp_path / "study", tmp_path / "go", tmp_path / "drivers"
+    folder.mkdir()
+    (folder / "odd_driver.py").write_text(DRIVER)
+    (tmp_path / "odd.yaml").write_text(ODD.format(go=go))
+    add_worker(1, folder)
+    run = start("run", "odd.yaml", "--no-report", "--out", out, "--scheduler", scheduler[1])
+    wait_until((out / "study.yaml").exists)
+    doomed = add_worker(2)
+    go.touch()
+    ended = run.ended()
+    assert ended.code == 0, ended.err
+    assert check_study(out) == ()
+    doomed.wait(60)
+    for death in (out / "logs" / "deaths.csv").read_text().splitlines()[1:]:
+        assert f",on {socket.gethostname()}: " in death
+        assert "No module named 'odd_driver'" in death
+
+
+def test_a_run_without_a_worker_says_so_and_waits(
+    scheduler, add_worker, start_quick, wait_until, finished, record, undisturbed, tmp_path
+):
+    """With the next worker it goes on, to the same bytes."""
+    out, only = tmp_path / "study", add_worker(1)
+    run = start_quick(out, "--scheduler", scheduler[1])
+    wait_until(lambda: finished(out) >= 1)
+    only.kill()
+    said = next(line for line in run.process.stderr if not line.startswith("Sessions "))
+    assert said.startswith(f"no worker is left at {scheduler[1]}: waiting for one")
+    add_worker(1)
+    assert run.ended().code == 0
+    assert record(out) == undisturbed
 
 
 def test_a_lost_scheduler_ends_a_run_in_one_line(
