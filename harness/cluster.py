@@ -32,7 +32,6 @@ LOST = "the Dask scheduler was lost; the same command again goes on"
 AHEAD = 2
 """Tasks per worker thread that are handed out: the one it is in, and the next."""
 
-
 _LOG = logging.getLogger(__name__)
 """What a person has to know at once; without further settings it goes to standard error."""
 
@@ -91,7 +90,7 @@ class Cluster:
         waiting, deaths = deque(numbers), Counter[int]()
         there, done = partial(_on_worker, pickle.dumps(task)), Queue["Future[Any]"]()
         under_way: dict[Future[Any], int] = {}
-        while True:
+        while waiting or under_way:
             with self._loss_told():
                 room = max(1, AHEAD * self._threads()) - len(under_way)
                 for _ in range(min(room, len(waiting))):
@@ -99,8 +98,6 @@ class Cluster:
                     future = self._client.submit(there, number, pure=False)
                     under_way[future] = number
                     future.add_done_callback(done.put)
-                if not under_way:
-                    return
                 future = self._next(done)
                 answer = self._answer(future)
             number = under_way.pop(future)
@@ -152,9 +149,8 @@ class Cluster:
         if isinstance(error, UnfitError):
             self._client.retire_workers([error.address])
             return Died(f"on {error.host}: {error.reason}", again=True)
-        if isinstance(error, KilledWorker):  # Dask has tried it several times
-            return Died(f"{type(error).__name__}: {error}")
-        return Died(f"{type(error).__name__}: {error}", again=True)
+        # A killed worker's number has been tried on several ones by Dask itself.
+        return Died(_in_one_line(error), again=not isinstance(error, KilledWorker))
 
 
 def _on_worker(task: bytes, number: int) -> tuple[str, Any]:
@@ -170,13 +166,17 @@ def _on_worker(task: bytes, number: int) -> tuple[str, Any]:
 
     host, address = socket.gethostname(), get_worker().address
     try:
-        load = pickle.loads(task)  # noqa: S301  # our own
+        run = pickle.loads(task)  # noqa: S301  # our own
     except BaseException as error:
-        raise UnfitError(host, address, f"{type(error).__name__}: {error}") from error
-    answer = load(number)
+        raise UnfitError(host, address, _in_one_line(error)) from error
+    answer = run(number)
     if isinstance(answer, Died):
         raise UnfitError(host, address, answer.reason)
     return host, answer
+
+
+def _in_one_line(error: BaseException) -> str:
+    return " ".join(f"{type(error).__name__}: {error}".split())
 
 
 def _placed(host: str, answer: Any) -> Any:
