@@ -1,14 +1,15 @@
 """One pass over the steps of every analysed lap: its measures, and what maps and models need."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 import pandas as pd
 
 from analysis.frames import StudyFrames, as_frame
 from analysis.measures.registry import MEASURES
-from analysis.measures.streams import Steps, helped, stream
+from analysis.measures.streams import Steps, gaps, helped, stream
 from protocols.record.steps import STEP_COLUMNS
 
 POOLED = ("x_m", "y_m", "h_would", "p_help")
@@ -30,12 +31,15 @@ class LapRecords:
         Analysed laps whose steps were not recorded.
     unrecorded
         Step columns without a value in any analysed lap.
+    gaps
+        What cannot be used of steps that were recorded, in words, and in how many laps.
     """
 
     measures: pd.DataFrame
     steps: pd.DataFrame
     without_steps: int
     unrecorded: tuple[str, ...] = ()
+    gaps: Mapping[str, int] = field(default_factory=dict)
 
 
 def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None) -> LapRecords:
@@ -48,6 +52,7 @@ def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None
     """
     rows, pooled, without = [], [], 0
     unrecorded = [column.name for column in STEP_COLUMNS]
+    found: Counter[str] = Counter()
     laps = frames.laps
     keys = zip(laps["participant"], laps["lap"], laps["condition"], laps["completed"], strict=True)
     for done, (participant, lap, condition, completed) in enumerate(keys):
@@ -56,6 +61,7 @@ def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None
         where = {"participant": participant, "lap": lap, "condition": condition}
         if frames.study.has_steps(participant, lap):
             steps = as_frame(frames.study.steps(participant, lap))
+            found.update(gaps(steps))
             pooled.append(_kept(steps, participant, condition))
             unrecorded = [name for name in unrecorded if steps[name].isna().all()]
         else:
@@ -68,7 +74,8 @@ def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None
     measures = pd.DataFrame(rows, columns=columns).astype(
         {**dict.fromkeys(names, "float64"), "completed": "bool"}
     )
-    return LapRecords(measures, _together(pooled), without, tuple(unrecorded) if pooled else ())
+    nowhere = tuple(unrecorded) if pooled else ()
+    return LapRecords(measures, _together(pooled), without, nowhere, dict(sorted(found.items())))
 
 
 def _kept(steps: Steps, participant: str, condition: str) -> pd.DataFrame:

@@ -6,7 +6,7 @@ The human acts while the stick is deflected, the robot acts while an assistant's
 import numpy as np
 
 from analysis.measures.episodes import Episode, episodes
-from analysis.measures.streams import Flags, Steps, command, helped
+from analysis.measures.streams import Flags, Steps, command, helped, period
 
 DEAD_BAND = 0.05
 """Share of full deflection below which the stick counts as at rest."""
@@ -41,10 +41,11 @@ def functional_delay(steps: Steps) -> float:
     Returns
     -------
     float
-        Below 0 when they act at once; NaN without a hand-over.
+        Below 0 when they act at once; NaN without a hand-over, or where time does not increase
+        from step to step: then nobody knows who acted first.
     """
     human, robot = _human(steps), helped(steps)
-    if human is None or robot is None:
+    if human is None or robot is None or np.isnan(period(steps)):
         return float("nan")
     actions = sorted(
         [(e, "human") for e in episodes(human)] + [(e, "robot") for e in episodes(robot)]

@@ -88,9 +88,9 @@ def log_dimensionless_jerk(steps: Steps, who: str) -> float:
     Balasubramanian, Melendez-Calderon & Burdet (2012), IEEE Trans. Biomedical Engineering 59(8).
     """
     velocity = command(steps, who)
-    if len(velocity) < 3 or np.isnan(velocity).any():
-        return float("nan")
     dt = period(steps)
+    if len(velocity) < 3 or np.isnan(velocity).any() or np.isnan(dt):
+        return float("nan")
     jerk = np.diff(velocity, n=2, axis=0) / dt**2
     peak = float(np.linalg.norm(velocity, axis=1).max())
     total = float((jerk**2).sum() * dt)

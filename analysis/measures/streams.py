@@ -1,20 +1,74 @@
 """A lap's steps as measures see them: streams of numbers, missing where nothing was recorded."""
 
+from collections.abc import Iterator
+
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from protocols.record.steps import STEP_COLUMNS
 from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
 
 Steps = pd.DataFrame
 """One lap's step table (``protocols.record.steps``), one row per control step."""
+
+BOUNDS = {"p_help": (0.0, 1.0)}
+"""Columns whose numbers have a lowest and a highest; what lies outside counts as missing."""
 
 Numbers = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 
 def stream(steps: Steps, name: str) -> Numbers:
-    """Return a column as numbers; NaN where it is missing, all NaN when it was not recorded."""
+    """Return a column as numbers; all NaN when it was not recorded.
+
+    What is missing, infinite, or out of its ``BOUNDS`` is NaN: no measure ever sees it.
+    """
+    values = _as_recorded(steps, name)
+    wrong = np.isinf(values) | _out_of_bounds(values, name)
+    return np.where(wrong, np.nan, values) if wrong.any() else values
+
+
+def period(steps: Steps) -> float:
+    """Return the length of a control step in s.
+
+    Returns
+    -------
+    float
+        NaN for fewer than two steps, and where time does not increase from step to step: whole
+        seconds at 10 Hz, or steps out of order, do not tell how long anything took.
+    """
+    passed = np.diff(stream(steps, "t_s"))
+    return float(np.median(passed)) if len(passed) and (passed > 0).all() else float("nan")
+
+
+def gaps(steps: Steps) -> tuple[str, ...]:
+    """Name what cannot be used of a lap's steps although it was recorded, and what becomes of it.
+
+    Examples
+    --------
+    >>> gaps(pd.DataFrame({"p_help": [0.5, 7.0]}))
+    ('p_help is not between 0 and 1 in some steps: missing there',)
+    """
+    return tuple(_gaps(steps))
+
+
+def _gaps(steps: Steps) -> Iterator[str]:
+    for column in STEP_COLUMNS:
+        if column.name not in steps or steps[column.name].dtype != np.float64:
+            continue
+        values = _as_recorded(steps, column.name)
+        if np.isinf(values).any():
+            yield f"{column.name} is infinite in some steps: missing there"
+        if _out_of_bounds(values[np.isfinite(values)], column.name).any():
+            low, high = BOUNDS[column.name]
+            yield f"{column.name} is not between {low:g} and {high:g} in some steps: missing there"
+    t = stream(steps, "t_s")
+    if len(t) > 1 and not np.isnan(t).all() and np.isnan(period(steps)):
+        yield ("t_s does not increase from step to step: measures that need the time are missing")
+
+
+def _as_recorded(steps: Steps, name: str) -> Numbers:
     if name not in steps:
         return np.full(len(steps), np.nan)
     column = steps[name]
@@ -23,10 +77,9 @@ def stream(steps: Steps, name: str) -> Numbers:
     return pd.to_numeric(column).to_numpy(dtype=np.float64, na_value=np.nan)
 
 
-def period(steps: Steps) -> float:
-    """Return the length of a control step in s; NaN for fewer than two steps."""
-    t = stream(steps, "t_s")
-    return float(np.median(np.diff(t))) if len(t) > 1 else float("nan")
+def _out_of_bounds(values: Numbers, name: str) -> Flags:
+    low, high = BOUNDS.get(name, (-np.inf, np.inf))
+    return np.asarray((values < low) | (values > high))
 
 
 def helped(steps: Steps) -> Flags | None:

@@ -1,5 +1,6 @@
 """When help came, measured against what the shadow demonstrator would have done."""
 
+import math
 from collections.abc import Iterator
 
 from analysis.measures.episodes import Episode, episodes
@@ -30,7 +31,7 @@ def missed_onsets(steps: Steps) -> float:
     Returns
     -------
     float
-        NaN when the demonstrator would never have helped.
+        NaN when the demonstrator would never have helped, or nobody knows when what was.
     """
     leads = list(_leads(steps))
     return sum(lead is None for lead in leads) / len(leads) if leads else float("nan")
@@ -50,6 +51,8 @@ def _leads(steps: Steps) -> Iterator[float | None]:
     if on is None or wanted is None:
         return
     dt = period(steps)
+    if math.isnan(dt):
+        return
     given = episodes(on)
     for onset in episodes(wanted):
         match = _first_help(given, onset, EARLIEST / dt)

@@ -2,6 +2,9 @@
 
 import shutil
 
+import numpy as np
+import pandas as pd
+
 from analysis.frames import study_frames
 from analysis.lap_records import read_laps
 from analysis.measures.path_length import path_length
@@ -57,3 +60,20 @@ def test_columns_without_any_value_are_named(make_study, erase):
     erase(study.folder, "h_would")
     erase(study.folder, "p_help", "P0001/steps-1.parquet")
     assert read_laps(study_frames(study)).unrecorded == ("h_would",)
+
+
+def test_gaps_are_counted_in_laps(make_study):
+    """What cannot be used of a lap's steps is named once, with the number of laps."""
+    study = make_study(participants=2)
+    assert read_laps(study_frames(study)).gaps == {}
+    for who, lap in (("P0001", 1), ("P0001", 4), ("P0002", 4)):
+        path = study.folder / "sessions" / who / f"steps-{lap}.parquet"
+        steps = pd.read_parquet(path)
+        steps["t_s"] = steps["t_s"].astype(int).astype(float)
+        if lap == 4:
+            steps.loc[3, "p_help"] = np.inf
+        steps.to_parquet(path)
+    assert read_laps(study_frames(study)).gaps == {
+        "p_help is infinite in some steps: missing there": 2,
+        "t_s does not increase from step to step: measures that need the time are missing": 3,
+    }

@@ -36,6 +36,10 @@ def people_section(results: StudyResults) -> Section:
                 "from these columns cannot be computed, and is shown as missing."
             )
         )
+    blocks += [
+        Caution(f"In the steps of {plural(laps, 'lap')}, {gap}.")
+        for gap, laps in results.records.gaps.items()
+    ]
     return Section("participants", "Participants", tuple(blocks))
 
 

@@ -2,10 +2,12 @@
 
 import csv
 import json
+import math
 import re
 import shutil
 from html.parser import HTMLParser
 
+import pandas as pd
 import pytest
 
 from analysis.report import write_report
@@ -152,6 +154,20 @@ def test_columns_without_a_value_are_named_and_the_rest_is_computed(make_study, 
     assert "No map: no position was recorded in any step." in text
     assert "assistance_map" not in {picture.name for picture in page.pictures}
     assert len(next(t for t in page.tables if t.name == "lap_times").rows) == 4
+
+
+def test_steps_that_cannot_be_used_are_named(make_study):
+    """Whole seconds at 10 Hz and an infinite probability: a report that says what is missing."""
+    study = make_study(participants=2)
+    for path in study.folder.rglob("steps-4.parquet"):
+        steps = pd.read_parquet(path)
+        steps["t_s"] = steps["t_s"].astype(int).astype(float)
+        steps.loc[3, ["p_help", "x_m"]] = math.inf
+        steps.to_parquet(path)
+    page = build_page(analyse(open_study(study.folder)))
+    text = render(page, {picture.name: b"" for picture in page.pictures})
+    assert "In the steps of 2 laps, t_s does not increase from step to step" in text
+    assert "In the steps of 2 laps, p_help is infinite in some steps" in text
 
 
 def test_minimal_tables_from_elsewhere_are_reported(make_study):
