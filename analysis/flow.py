@@ -1,11 +1,11 @@
 """Participants flow: planned, recorded, excluded and why, analysed. The arithmetic adds up."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import pandas as pd
 
 from analysis.frames import StudyFrames, as_frame, excluded, refused
+from analysis.left_out import left_out
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +71,7 @@ def participants_flow(frames: StudyFrames) -> Flow:
         completed=int((finished >= wanted).sum()),
         laps=lap_flow(frames),
         withdrawals=withdrawals(frames),
-        left_out=tuple(_left_out(frames)),
+        left_out=left_out(frames),
     )
 
 
@@ -114,23 +114,3 @@ def withdrawals(frames: StudyFrames) -> pd.DataFrame:
     left = laps[(laps["end_reason"] == "withdrew") & laps["participant"].isin(consented)]
     wanted = left[["participant", "lap", "condition", "withdrawal"]]
     return wanted.sort_values(["participant", "lap"], ignore_index=True)
-
-
-def _left_out(frames: StudyFrames) -> Iterator[str]:
-    """Name rows that refer to something the study does not have: tables made elsewhere may."""
-    study = frames.study
-    everybody = set(frames.everybody["participant"])
-    strangers = [w for w in study.laps["participant"].to_pylist() if w not in everybody]
-    if strangers:
-        yield f"{len(strangers)} laps of people who are not in the table of participants"
-    checks = (
-        (frames.laps, "condition", set(study.protocol.conditions), "laps", "conditions"),
-        (frames.surveys, "condition", set(study.protocol.conditions), "answers", "conditions"),
-        (frames.surveys, "instrument", {i.name for i in study.instruments}, "answers",
-         "instruments"),
-    )  # fmt: skip
-    for frame, column, known, rows, what in checks:
-        unknown = frame[~frame[column].isin(known)][column]
-        if len(unknown):
-            names = ", ".join(sorted(set(map(str, unknown))))
-            yield f"{len(unknown)} {rows} of {what} that the study does not have ({names})"

@@ -1,5 +1,6 @@
 """The study's tables as data frames, and which rows an analysis may use."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import pandas as pd
@@ -7,6 +8,7 @@ import pyarrow as pa
 
 from analysis.roles import Part, cast
 from protocols.record.reader import Study
+from protocols.study import StudyProtocol
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +26,8 @@ class StudyFrames:
     participants
         One row per participant whom no rule excludes and who did not refuse consent.
     laps
-        Their laps, practice left out; finished or not.
+        Their laps in the analysed conditions, practice left out; finished or not. Only a finished
+        one has a lap time.
     surveys
         Their answers, missing ones as NaN.
     """
@@ -46,19 +49,35 @@ def study_frames(study: Study) -> StudyFrames:
     """Return the tables of a study, and those who are analysed."""
     everybody = as_frame(study.participants)
     kept = everybody[~excluded(everybody) & ~refused(everybody)]
-    laps = as_frame(study.laps)
+    parts = cast(study.protocol)
+    laps = counted_laps(study, kept["participant"])
+    laps = laps[laps["condition"].isin([part.condition for part in parts])]
+    # Whatever stands there: a lap that was not finished has no lap time.
+    laps = laps.assign(lap_time_s=laps["lap_time_s"].where(laps["completed"].astype(bool)))
     surveys = as_frame(study.surveys)
-    ids = set(kept["participant"])
-    practice = laps["practice"].fillna(value=False).astype(bool)
-    laps = laps[laps["participant"].isin(ids) & ~practice]
     return StudyFrames(
         study=study,
-        parts=cast(study.protocol),
+        parts=parts,
         everybody=everybody,
         participants=kept.reset_index(drop=True),
         laps=laps.reset_index(drop=True),
-        surveys=surveys[surveys["participant"].isin(ids)].reset_index(drop=True),
+        surveys=surveys[surveys["participant"].isin(kept["participant"])].reset_index(drop=True),
     )
+
+
+def counted_laps(study: Study, participants: Iterable[str]) -> pd.DataFrame:
+    """Return the laps of some people as they were recorded, practice laps left out."""
+    laps = as_frame(study.laps)
+    return laps[laps["participant"].isin(list(participants)) & ~practised(laps, study.protocol)]
+
+
+def practised(laps: pd.DataFrame, protocol: StudyProtocol) -> pd.Series:
+    """Return which laps are practice: as they say themselves, else as the protocol plans them."""
+    planned = {(i, lap.condition) for i, lap in enumerate(protocol.laps) if lap.practice}
+    placed = zip(laps["lap"], laps["condition"], strict=True)
+    as_planned = pd.Series([place in planned for place in placed], index=laps.index, dtype=bool)
+    practice: pd.Series = laps["practice"].astype("boolean").fillna(as_planned).astype(bool)
+    return practice
 
 
 def as_frame(table: pa.Table) -> pd.DataFrame:

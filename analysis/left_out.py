@@ -1,0 +1,65 @@
+"""What a study's tables hold that no analysis can use: tables made elsewhere may."""
+
+from collections.abc import Iterator
+
+import pandas as pd
+
+from analysis.frames import StudyFrames, as_frame, counted_laps
+
+
+def left_out(frames: StudyFrames) -> tuple[str, ...]:
+    """Name every row or value that is in no analysis although its participant is, in words.
+
+    Practice laps are not named: that they are not analysed is the protocol's choice.
+    """
+    return (*_laps(frames), *_answers(frames))
+
+
+def _laps(frames: StudyFrames) -> Iterator[str]:
+    study = frames.study
+    yield from _strangers(frames, as_frame(study.laps), "lap")
+    laps = counted_laps(study, frames.participants["participant"])
+    yield from _conditions(frames, laps, "lap")
+    timed = frames.conditions
+    unfinished = laps[~laps["completed"].astype(bool) & laps["condition"].isin(timed)]
+    times = int(unfinished["lap_time_s"].notna().sum())
+    if times:
+        yield f"{_number(times, 'lap time')} of laps that were not finished"
+
+
+def _answers(frames: StudyFrames) -> Iterator[str]:
+    study, answers = frames.study, frames.surveys
+    yield from _conditions(frames, answers, "answer")
+    known = {instrument.name for instrument in study.instruments}
+    yield from _unknown(answers["instrument"], known, "answer", "instruments")
+
+
+def _strangers(frames: StudyFrames, rows: pd.DataFrame, what: str) -> Iterator[str]:
+    n = int((~rows["participant"].isin(frames.everybody["participant"])).sum())
+    if n:
+        yield f"{_number(n, what)} of people who are not in the table of participants"
+
+
+def _conditions(frames: StudyFrames, rows: pd.DataFrame, what: str) -> Iterator[str]:
+    study = set(frames.study.protocol.conditions)
+    yield from _unknown(rows["condition"], study, what, "conditions")
+    unplanned = rows["condition"].isin(study) & ~rows["condition"].isin(frames.conditions)
+    if unplanned.any():
+        names = _names(rows.loc[unplanned, "condition"])
+        n = _number(int(unplanned.sum()), what)
+        yield f"{n} of conditions that are not planned, or for practice only ({names})"
+
+
+def _unknown(values: pd.Series, known: set[str], rows: str, what: str) -> Iterator[str]:
+    unknown = values[~values.isin(known)]
+    if len(unknown):
+        n = _number(len(unknown), rows)
+        yield f"{n} of {what} that the study does not have ({_names(unknown)})"
+
+
+def _names(values: pd.Series) -> str:
+    return ", ".join(sorted(set(map(str, values))))
+
+
+def _number(n: int, one: str) -> str:
+    return f"{n} {one}" if n == 1 else f"{n} {one}s"

@@ -1,0 +1,74 @@
+"""Which laps and answers are analysed, and what of them."""
+
+import pandas as pd
+import pytest
+
+from analysis.flow import participants_flow
+from analysis.frames import study_frames
+from protocols.record.reader import open_study
+
+LIMITED_FIRST = """
+schema: 1
+name: other
+title: Practice in a condition that is analysed, too
+course: lab-office
+cohort: {participants: 2}
+conditions:
+  free: {}
+  limited: {limitation: {right_turn_rad_s: 0.15}}
+laps:
+  - {condition: limited, practice: true}
+  - {condition: free}
+  - {condition: limited}
+"""
+
+
+def changed(study, table, change):
+    """Return the study's frames after a change to one of its tables."""
+    path = study.folder / f"{table}.parquet"
+    change(pd.read_parquet(path)).to_parquet(path)
+    return study_frames(open_study(study.folder))
+
+
+def test_a_time_of_an_unfinished_lap_is_no_lap_time(make_study):
+    """It is in no average, and the page is told."""
+
+    def timed(laps):
+        laps.loc[~laps["completed"], "lap_time_s"] = 500.0
+        return laps
+
+    frames = changed(make_study(unfinished=frozenset({(1, 2)})), "laps", timed)
+    assert frames.laps["lap_time_s"].max() < 500
+    assert frames.laps["lap_time_s"].isna().sum() == 1
+    assert participants_flow(frames).left_out == ("1 lap time of laps that were not finished",)
+
+
+def test_laps_of_other_conditions_are_in_no_frame(make_study):
+    """Neither of unknown conditions nor of those that are only practised; both are named."""
+
+    def renamed(laps):
+        laps.loc[1, "condition"] = "blindfolded"
+        laps.loc[laps["lap"] == 0, "practice"] = False
+        return laps
+
+    frames = changed(make_study(participants=2), "laps", renamed)
+    assert len(frames.laps) == 7
+    assert set(frames.laps["condition"]) == set(frames.conditions)
+    assert participants_flow(frames).left_out == (
+        "1 lap of conditions that the study does not have (blindfolded)",
+        "2 laps of conditions that are not planned, or for practice only (familiarisation)",
+    )
+
+
+@pytest.mark.parametrize("practice", ["absent", "missing"])
+def test_practice_that_was_not_recorded_is_as_planned(make_study, tmp_path, practice):
+    """Without the column the protocol says which laps are practice, also of a later condition."""
+    path = tmp_path / "limited-first.yaml"
+    path.write_text(LIMITED_FIRST)
+
+    def forget(laps):
+        return laps.drop(columns="practice") if practice == "absent" else laps.assign(practice=None)
+
+    frames = changed(make_study(path, participants=2), "laps", forget)
+    assert frames.laps["lap"].tolist() == [1, 2, 1, 2]
+    assert participants_flow(frames).left_out == ()
