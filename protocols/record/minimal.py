@@ -46,7 +46,6 @@ PARTICIPANTS = TableRules(
 LAPS = TableRules(
     LAP_COLUMNS,
     ("participant", "lap", "condition", "completed", "lap_time_s"),
-    {"practice": False},
     key=("participant", "lap"),
     positive=("lap_time_s",),
 )

@@ -30,8 +30,7 @@ def test_minimal_laps_get_all_columns():
     assert table.column_names == [c.name for c in LAPS.columns]
     assert [f.type for f in table.schema] == [c.type for c in LAPS.columns]
     assert table["lap_time_s"].to_pylist() == [40, None, 42]
-    assert table["practice"].to_pylist() == [False] * 3
-    assert table["collisions"].null_count == 3
+    assert table["practice"].null_count == table["collisions"].null_count == 3
 
 
 def test_columns_of_ones_own_are_kept():
