@@ -27,7 +27,7 @@ class Flow:
     analysed
         The rest.
     completed
-        Of these, who finished every analysed lap.
+        Of these, who finished every planned lap, practice apart.
     laps
         One row per condition: laps planned, not driven, unfinished by reason, finished.
     withdrawals
@@ -58,8 +58,6 @@ def participants_flow(frames: StudyFrames) -> Flow:
     reasons = people.loc[out, "exclusion_reason"].fillna("no reason recorded").value_counts()
     recorded, failed = len(people), len(frames.study.failed())
     planned = max(frames.study.protocol.cohort.participants, recorded + failed)
-    finished = frames.laps.groupby("participant")["completed"].sum()
-    wanted = sum(not lap.practice for lap in frames.study.protocol.laps)
     return Flow(
         planned=planned,
         not_run=planned - recorded - failed,
@@ -68,7 +66,7 @@ def participants_flow(frames: StudyFrames) -> Flow:
         refused=int(no.sum()),
         excluded={str(reason): int(n) for reason, n in sorted(reasons.items())},
         analysed=len(frames.participants),
-        completed=int((finished >= wanted).sum()),
+        completed=_completed(frames),
         laps=lap_flow(frames),
         withdrawals=withdrawals(frames),
         left_out=left_out(frames),
@@ -77,9 +75,7 @@ def participants_flow(frames: StudyFrames) -> Flow:
 
 def lap_flow(frames: StudyFrames) -> pd.DataFrame:
     """Return one row per condition: laps planned = finished + unfinished + not driven."""
-    planned = pd.Series(
-        [lap.condition for lap in frames.study.protocol.laps if not lap.practice]
-    ).value_counts()
+    planned = _planned(frames)
     rows = []
     for condition in frames.conditions:
         laps = frames.laps[frames.laps["condition"] == condition]
@@ -98,6 +94,21 @@ def lap_flow(frames: StudyFrames) -> pd.DataFrame:
             }
         )
     return pd.DataFrame(rows)
+
+
+def _planned(frames: StudyFrames) -> pd.Series:
+    """Return how many laps of each condition a participant is to drive, practice apart."""
+    laps = frames.study.protocol.laps
+    return pd.Series([lap.condition for lap in laps if not lap.practice]).value_counts()
+
+
+def _completed(frames: StudyFrames) -> int:
+    """Return how many people finished as many laps of every condition as were planned."""
+    laps = frames.laps[frames.laps["completed"].astype(bool)]
+    finished = pd.crosstab(laps["participant"], laps["condition"])
+    planned = _planned(frames)
+    enough = finished.reindex(columns=planned.index, fill_value=0) >= planned
+    return int(enough.all(axis=1).sum())
 
 
 def withdrawals(frames: StudyFrames) -> pd.DataFrame:

@@ -29,6 +29,22 @@ def test_participants_add_up(eventful):
     assert (flow.analysed, flow.completed) == (4, 1)
 
 
+def test_a_lap_too_many_makes_up_for_no_other(make_study):
+    """Who drove one condition twice and another never did not finish every planned lap."""
+    folder = make_study(participants=2).folder
+    laps = pd.read_parquet(folder / "laps.parquet")
+    laps.loc[(laps["participant"] == "P0001") & (laps["lap"] == 3), "condition"] = "limited"
+    laps.to_parquet(folder / "laps.parquet")
+    assert participants_flow(study_frames(open_study(folder))).completed == 1
+
+
+def test_nobody_finished_when_nothing_was(make_study):
+    """Without a finished lap the count is 0."""
+    unfinished = frozenset((who, lap) for who in (1, 2) for lap in range(5))
+    frames = study_frames(make_study(participants=2, unfinished=unfinished))
+    assert participants_flow(frames).completed == 0
+
+
 def test_laps_add_up(eventful):
     """Per condition, laps planned = finished + unfinished + not driven."""
     laps = participants_flow(study_frames(eventful)).laps.set_index("condition")

@@ -82,7 +82,7 @@ def _stages(flow: Flow) -> pd.DataFrame:
         ("− consent refused", flow.refused),
         *((f"− excluded: {reason}", n) for reason, n in flow.excluded.items()),
         ("= analysed", flow.analysed),
-        ("of these, finished every analysed lap", flow.completed),
+        ("of these, finished every planned lap (practice apart)", flow.completed),
     ]
     return pd.DataFrame(stages, columns=["stage", "participants"])
 
