@@ -12,7 +12,8 @@ def scale_table(frames: StudyFrames, instrument: Instrument) -> pd.DataFrame:
     """Return one row per subscale and condition: Cronbach's alpha, and the score.
 
     A person's score is the mean of the subscale's items, reverse-coded ones turned; who left an
-    item out has none. Items that were not asked after a condition are not part of its score.
+    item out, or was not asked, has none and counts as incomplete. Items that were not asked after
+    a condition are not part of its score.
     """
     rows = []
     for subscale in dict.fromkeys(item.subscale for item in instrument.items):
@@ -29,7 +30,7 @@ def scale_table(frames: StudyFrames, instrument: Instrument) -> pd.DataFrame:
                     "condition": condition,
                     "items": sheets.shape[1],
                     "n": score.n,
-                    "incomplete": len(sheets) - score.n,
+                    "incomplete": len(frames.participants) - score.n,
                     "mean": score.mean,
                     "sd": score.sd,
                     "alpha": alpha.estimate,

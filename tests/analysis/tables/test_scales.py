@@ -26,6 +26,14 @@ def test_incomplete_sheets_have_no_score(make_study):
     assert rows.loc[("task", "model-assisted"), ["n", "incomplete"]].tolist() == [4, 0]
 
 
+def test_who_had_left_is_incomplete(make_study):
+    """Who was not asked after a lap has no score there, and is not forgotten."""
+    study = make_study(withdrew={1: 4})
+    table = scale_table(study_frames(study), study.instruments[0])
+    rows = table.set_index(["subscale", "condition"])
+    assert rows.loc[("task", "model-assisted"), ["n", "incomplete"]].tolist() == [3, 1]
+
+
 def test_a_subscale_that_was_not_asked_has_no_row(make_study):
     """After laps without assistance nobody is asked about it, so that there is no score."""
     study = make_study()
