@@ -29,7 +29,8 @@ class StudyFrames:
         Their laps in the analysed conditions, practice left out; finished or not. Only a finished
         one has a lap time.
     surveys
-        Their answers, missing ones as NaN.
+        Their answers, missing ones as NaN: one of each person to each item in each condition. Where
+        a condition was driven more than once, the last answer given counts.
     """
 
     study: Study
@@ -54,14 +55,13 @@ def study_frames(study: Study) -> StudyFrames:
     laps = laps[laps["condition"].isin([part.condition for part in parts])]
     # Whatever stands there: a lap that was not finished has no lap time.
     laps = laps.assign(lap_time_s=laps["lap_time_s"].where(laps["completed"].astype(bool)))
-    surveys = as_frame(study.surveys)
     return StudyFrames(
         study=study,
         parts=parts,
         everybody=everybody,
         participants=kept.reset_index(drop=True),
         laps=laps.reset_index(drop=True),
-        surveys=surveys[surveys["participant"].isin(kept["participant"])].reset_index(drop=True),
+        surveys=last_answers(counted_answers(study, kept["participant"])).reset_index(drop=True),
     )
 
 
@@ -69,6 +69,25 @@ def counted_laps(study: Study, participants: Iterable[str]) -> pd.DataFrame:
     """Return the laps of some people as they were recorded, practice laps left out."""
     laps = as_frame(study.laps)
     return laps[laps["participant"].isin(list(participants)) & ~practised(laps, study.protocol)]
+
+
+def counted_answers(study: Study, participants: Iterable[str]) -> pd.DataFrame:
+    """Return the answers of some people as they were recorded, those after practice left out."""
+    answers, laps = as_frame(study.surveys), as_frame(study.laps)
+    practice = laps.loc[practised(laps, study.protocol), ["participant", "lap"]]
+    driven = pd.MultiIndex.from_frame(answers[["participant", "lap"]])
+    after_practice = driven.isin(pd.MultiIndex.from_frame(practice))
+    return answers[answers["participant"].isin(list(participants)) & ~after_practice]
+
+
+def last_answers(answers: pd.DataFrame) -> pd.DataFrame:
+    """Return one answer of each person to each item in each condition: the last one given.
+
+    Answers on a scale are not averaged: between "agree" and "disagree" there need not be a middle.
+    """
+    asked = ["participant", "condition", "instrument", "item"]
+    in_order = answers.assign(given=answers["response"].notna()).sort_values(["given", "lap"])
+    return answers.loc[in_order.drop_duplicates(asked, keep="last").index].sort_index()
 
 
 def practised(laps: pd.DataFrame, protocol: StudyProtocol) -> pd.Series:

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import pandas as pd
 
-from analysis.frames import StudyFrames, as_frame, counted_laps
+from analysis.frames import StudyFrames, as_frame, counted_answers, counted_laps
 
 
 def left_out(frames: StudyFrames) -> tuple[str, ...]:
@@ -28,10 +28,19 @@ def _laps(frames: StudyFrames) -> Iterator[str]:
 
 
 def _answers(frames: StudyFrames) -> Iterator[str]:
-    study, answers = frames.study, frames.surveys
+    study = frames.study
+    yield from _strangers(frames, as_frame(study.surveys), "answer")
+    answers = counted_answers(study, frames.participants["participant"])
     yield from _conditions(frames, answers, "answer")
-    known = {instrument.name for instrument in study.instruments}
-    yield from _unknown(answers["instrument"], known, "answer", "instruments")
+    items = {instrument.name: instrument.ids(assisted=True) for instrument in study.instruments}
+    yield from _unknown(answers["instrument"], set(items), "answer", "instruments")
+    for name, known in items.items():
+        given = answers.loc[answers["instrument"] == name, "item"]
+        yield from _unknown(given, set(known), "answer", f"items of {name}")
+    earlier = len(answers) - len(frames.surveys)
+    if earlier:
+        n = _number(earlier, "earlier answer")
+        yield f"{n} where a condition was driven more than once (the last one given counts)"
 
 
 def _strangers(frames: StudyFrames, rows: pd.DataFrame, what: str) -> Iterator[str]:

@@ -26,7 +26,10 @@ def by_participant(frames: StudyFrames, outcome: str) -> pd.DataFrame:
 
 
 def answers_by_participant(frames: StudyFrames, instrument: str, item: str) -> pd.DataFrame:
-    """Return the answers to an item: rows participants, columns conditions."""
+    """Return the answers to an item: rows participants, columns conditions.
+
+    Where a condition was driven more than once, the last answer counts (``StudyFrames.surveys``).
+    """
     surveys = frames.surveys
     asked = surveys[(surveys["instrument"] == instrument) & (surveys["item"] == item)]
     return _wide(frames, asked.assign(value=pd.to_numeric(asked["response"]).astype("float64")))

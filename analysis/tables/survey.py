@@ -4,35 +4,54 @@ import pandas as pd
 
 from analysis.frames import StudyFrames
 from protocols.instrument import Instrument
+from protocols.study import StudyProtocol
 
 
 def survey_table(frames: StudyFrames, instrument: Instrument) -> pd.DataFrame:
-    """Return one row per item and condition in which it was asked.
+    """Return one row per item and condition in which it was to be asked, or was.
 
-    Columns: item, text, condition, asked, answered, missing, median, the count of every point of
-    the scale (``n_1`` upwards), and agreement in percent of those who answered. An answer that
-    was never asked for because the participant left early is in neither ``asked`` nor ``missing``.
+    Columns: item, text, condition, asked, answered, missing, not_reached, median, the count of
+    every point of the scale (``n_1`` upwards), and agreement in percent of those who answered.
+    Everybody who is analysed was to be asked: asked = answered + missing (asked, but left out) +
+    not_reached (no row in the record, because the participant had left or did not drive the lap).
     """
     answers = frames.surveys[frames.surveys["instrument"] == instrument.name]
+    planned = planned_questions(frames.study.protocol, instrument)
     rows = []
     for item in instrument.items:
         for condition in frames.conditions:
             chosen = (answers["item"] == item.id) & (answers["condition"] == condition)
-            if chosen.any():
+            if (condition, item.id) in planned or chosen.any():
                 given = pd.to_numeric(answers.loc[chosen, "response"])
                 rows.append({"item": item.id, "text": item.text, "condition": condition}
-                            | _counts(given, instrument))  # fmt: skip
-    columns = ["item", "text", "condition", *_counts(pd.Series(dtype=float), instrument)]
+                            | _counts(given, len(frames.participants), instrument))  # fmt: skip
+    columns = ["item", "text", "condition", *_counts(pd.Series(dtype=float), 0, instrument)]
     return pd.DataFrame(rows, columns=columns)
 
 
-def _counts(given: pd.Series, instrument: Instrument) -> dict[str, float | int]:
+def planned_questions(
+    protocol: StudyProtocol, instrument: Instrument
+) -> frozenset[tuple[str, str]]:
+    """Return the conditions and items in which a protocol asks an instrument, practice apart."""
+    asked = set()
+    for lap in protocol.laps:
+        assisted = protocol.conditions[lap.condition].assistant != "none"
+        for survey in lap.survey:
+            if not lap.practice and survey.instrument == instrument.name:
+                every = survey.items == "all"
+                items = instrument.ids(assisted=assisted) if every else survey.items
+                asked |= {(lap.condition, item) for item in items}
+    return frozenset(asked)
+
+
+def _counts(given: pd.Series, asked: int, instrument: Instrument) -> dict[str, float | int]:
     answered = given.dropna()
     agreeing = int((answered >= instrument.agreement_from).sum())
     return {
-        "asked": len(given),
+        "asked": asked,
         "answered": len(answered),
         "missing": len(given) - len(answered),
+        "not_reached": asked - len(given),
         "median": float(answered.median()) if len(answered) else float("nan"),
         **{f"n_{i}": int((answered == i).sum()) for i in range(1, instrument.points + 1)},
         "agree_percent": 100 * agreeing / len(answered) if len(answered) else float("nan"),

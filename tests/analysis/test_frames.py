@@ -5,7 +5,22 @@ import pytest
 
 from analysis.flow import participants_flow
 from analysis.frames import study_frames
+from analysis.outcomes import answers_by_participant
 from protocols.record.reader import open_study
+
+TWICE = """
+schema: 1
+name: other
+title: The same questions after two laps of a condition
+course: lab-office
+cohort: {participants: 2}
+conditions:
+  free: {}
+laps:
+  - {condition: free, practice: true, survey: [{instrument: driving-assistance, items: [Q1]}]}
+  - {condition: free, survey: [{instrument: driving-assistance, items: [Q1]}]}
+  - {condition: free, survey: [{instrument: driving-assistance, items: [Q1]}]}
+"""
 
 LIMITED_FIRST = """
 schema: 1
@@ -72,3 +87,37 @@ def test_practice_that_was_not_recorded_is_as_planned(make_study, tmp_path, prac
     frames = changed(make_study(path, participants=2), "laps", forget)
     assert frames.laps["lap"].tolist() == [1, 2, 1, 2]
     assert participants_flow(frames).left_out == ()
+
+
+def test_the_last_answer_counts(make_study, tmp_path):
+    """Answers are not averaged; one after practice, or to be overruled, is not used, and named."""
+    path = tmp_path / "twice.yaml"
+    path.write_text(TWICE)
+
+    def answered(surveys):
+        return surveys.assign(response=pd.array([5, 1, 4, 5, 2, None], dtype="Int8"))
+
+    frames = changed(make_study(path, participants=2), "surveys", answered)
+    assert frames.surveys["response"].tolist() == [4, 2]
+    wide = answers_by_participant(frames, "driving-assistance", "Q1")
+    assert wide["free"].tolist() == [4, 2]
+    assert participants_flow(frames).left_out == (
+        "2 earlier answers where a condition was driven more than once (the last one given counts)",
+    )
+
+
+def test_answers_that_nobody_can_use_are_named(make_study):
+    """Of somebody unknown, in an unknown condition, to an unknown item."""
+
+    def spoilt(surveys):
+        surveys.loc[0, "participant"] = "GHOST"
+        surveys.loc[4, "item"] = "Q99"
+        surveys.loc[5, "condition"] = "zzz"
+        return surveys
+
+    frames = changed(make_study(participants=2), "surveys", spoilt)
+    assert participants_flow(frames).left_out == (
+        "1 answer of people who are not in the table of participants",
+        "1 answer of conditions that the study does not have (zzz)",
+        "1 answer of items of driving-assistance that the study does not have (Q99)",
+    )

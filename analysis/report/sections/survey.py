@@ -26,13 +26,17 @@ def survey_section(results: StudyResults) -> Section:
 
 def _instrument(results: StudyResults, survey: SurveyResults) -> list[Block]:
     instrument, answers = survey.instrument, survey.table
-    missing, asked = int(answers["missing"].sum()), int(answers["asked"].sum())
+    asked, missing, not_reached = (
+        int(answers[name].sum()) for name in ("asked", "missing", "not_reached")
+    )
     agreeing = f"{instrument.anchors[instrument.agreement_from - 1]!r} or above"
     blocks: list[Block] = [
         Paragraph(
             f"{instrument.title}: {len(instrument.items)} items on {instrument.points} points "
-            f"({', '.join(instrument.anchors)}). {missing} of {asked} answers are missing; every "
-            "item uses all answers it has. "
+            f"({', '.join(instrument.anchors)}). Of {asked} answers (every planned "
+            f"question, every analysed participant) {missing} are missing and {not_reached} were "
+            "not reached: the participant had left, or did not drive the lap. Every item uses all "
+            "answers it has. "
             f"{instrument.source}"
         ),
         Picture(
@@ -108,8 +112,10 @@ _ANSWERS = [
     Shown("item", lambda r: r["item"], words=True),
     Shown("text", lambda r: r["text"], words=True),
     Shown("condition", lambda r: r["condition"], words=True),
+    Shown("asked", lambda r: count(r["asked"])),
     Shown("answered", lambda r: count(r["answered"])),
     Shown("missing", lambda r: count(r["missing"])),
+    Shown("not reached", lambda r: count(r["not_reached"])),
     Shown("median", lambda r: number(r["median"])),
     Shown("agree", lambda r: percent(r["agree_percent"])),
 ]

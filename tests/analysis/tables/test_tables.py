@@ -72,9 +72,24 @@ def test_answers_add_up(make_study):
     table = survey_table(study_frames(study), study.instruments[0])
     points = table[[f"n_{i}" for i in range(1, 6)]].sum(axis=1)
     assert (points == table["answered"]).all()
-    assert (table["answered"] + table["missing"] == table["asked"]).all()
+    parts = table[["answered", "missing", "not_reached"]].sum(axis=1)
+    assert (parts == table["asked"]).all()
+    assert (table["asked"] == 4).all()
     q5 = table[table["item"] == "Q5"]
     assert q5["missing"].tolist() == [1, 1]
+
+
+def test_questions_that_were_not_reached_are_counted(make_study):
+    """Who left before a question stays in what was to be asked; no row vanishes."""
+    study = make_study(withdrew=dict.fromkeys(range(1, 5), 4) | {2: 0})
+    table = survey_table(study_frames(study), study.instruments[0])
+    counted = table.groupby("condition", sort=False)[["asked", "answered", "not_reached"]].sum()
+    assert counted.to_dict("index") == {
+        "baseline": {"asked": 16, "answered": 12, "not_reached": 4},
+        "limited": {"asked": 16, "answered": 12, "not_reached": 4},
+        "human-assisted": {"asked": 44, "answered": 33, "not_reached": 11},
+        "model-assisted": {"asked": 44, "answered": 0, "not_reached": 44},
+    }
 
 
 def test_agreement_starts_where_the_instrument_says(make_study):
