@@ -1,7 +1,8 @@
 """When a person has had enough: of a lap that takes too long, or because something else is wrong.
 
 Assumptions, with what there is to hold them against: none of the paper's twelve participants
-left, which is compatible with anything up to one session in five (95%, Clopper & Pearson, 1934).
+left, which is compatible with anything up to about one session in four (26.5%, the upper end of
+the two-sided 95% interval of Clopper & Pearson, 1934).
 """
 
 import numpy as np
