@@ -55,6 +55,14 @@ def test_laps_add_up(eventful):
     assert laps.loc["model-assisted", "not_driven"] == 1
 
 
+def test_who_leaves_in_practice_is_in_every_denominator(make_study):
+    """The lap rows still add up to everybody, with the one who left as not driven."""
+    flow = participants_flow(study_frames(make_study(participants=3, withdrew={2: 0})))
+    assert (flow.analysed, flow.completed) == (3, 2)
+    assert flow.laps["planned"].tolist() == [3] * 4
+    assert flow.laps["not_driven"].tolist() == [1] * 4
+
+
 def test_withdrawals_keep_their_words(eventful):
     """Everybody who left is listed with the words, also who left in practice or is excluded."""
     left = participants_flow(study_frames(eventful)).withdrawals

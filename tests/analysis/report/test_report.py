@@ -131,9 +131,17 @@ def test_the_same_study_gives_the_same_report(report, study, tmp_path):
         ({"participants": 2, "answer": 3}, "every difference is zero"),
         ({"unfinished": frozenset({(1, 2), (2, 2)})}, "2 pairs missing"),
         ({"withdrew": dict.fromkeys(range(1, 5), 3)}, "no pair is complete"),
+        ({"participants": 2, "withdrew": {1: 0, 2: 0}}, "no pair is complete"),
         ({"participants": 3, "excluded": {1: "a", 2: "b", 3: "c"}}, "excluded: b"),
     ],
-    ids=["one participant", "equal answers", "unfinished laps", "condition missing", "nobody"],
+    ids=[
+        "one participant",
+        "equal answers",
+        "unfinished laps",
+        "condition missing",
+        "all left",
+        "nobody",
+    ],
 )
 def test_what_cannot_be_computed_is_said_and_the_rest_computed(make_study, events, said):
     """The page is written whatever happened, and says why something is missing."""
