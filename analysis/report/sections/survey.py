@@ -35,8 +35,8 @@ def _instrument(results: StudyResults, survey: SurveyResults) -> list[Block]:
             f"{instrument.title}: {len(instrument.items)} items on {instrument.points} points "
             f"({', '.join(instrument.anchors)}). Of {asked} answers (every planned "
             f"question, every analysed participant) {missing} are missing and {not_reached} were "
-            "not reached: the participant had left, or did not drive the lap. Every item uses all "
-            "answers it has. "
+            "not reached (no row in the record: the participant had left, did not drive the lap, "
+            "or was not asked). Every item uses all answers it has. "
             f"{instrument.source}"
         ),
         Picture(
