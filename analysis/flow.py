@@ -29,7 +29,8 @@ class Flow:
     completed
         Of these, who finished every planned lap, practice apart.
     laps
-        One row per condition: laps planned, not driven, unfinished by reason, finished.
+        One row per condition: laps planned, not driven, unfinished by reason, finished, and how
+        many of the finished ones have no lap time.
     withdrawals
         One row per lap in which somebody left: participant, lap, condition, and why, in the
         participant's words. Nobody who refused consent is in it.
@@ -74,12 +75,16 @@ def participants_flow(frames: StudyFrames) -> Flow:
 
 
 def lap_flow(frames: StudyFrames) -> pd.DataFrame:
-    """Return one row per condition: laps planned = finished + unfinished + not driven."""
+    """Return one row per condition: laps planned = finished + unfinished + not driven.
+
+    ``finished_without_time`` counts laps that are among the finished ones, too.
+    """
     planned = _planned(frames)
     rows = []
     for condition in frames.conditions:
         laps = frames.laps[frames.laps["condition"] == condition]
-        unfinished = laps[~laps["completed"].astype(bool)]
+        done = laps["completed"].astype(bool)
+        unfinished = laps[~done]
         reasons = unfinished["end_reason"].fillna("no reason recorded")
         expected = max(int(planned.get(condition, 0)) * len(frames.participants), len(laps))
         rows.append(
@@ -91,6 +96,7 @@ def lap_flow(frames: StudyFrames) -> pd.DataFrame:
                 "withdrew": int((reasons == "withdrew").sum()),
                 "unfinished_otherwise": int((~reasons.isin(["time_limit", "withdrew"])).sum()),
                 "not_driven": expected - len(laps),
+                "finished_without_time": int(laps.loc[done, "lap_time_s"].isna().sum()),
             }
         )
     return pd.DataFrame(rows)

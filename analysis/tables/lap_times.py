@@ -10,7 +10,7 @@ from analysis.stats.describe import describe
 
 
 def lap_time_table(frames: StudyFrames) -> pd.DataFrame:
-    """Return one row per condition: laps finished and not, and the finished laps' times in s."""
+    """Return one row per condition: laps finished, with a time or without, and not; times in s."""
     flow = {row["condition"]: row for row in lap_flow(frames).to_dict("records")}
     rows = []
     for part in frames.parts:
@@ -27,6 +27,7 @@ def lap_time_table(frames: StudyFrames) -> pd.DataFrame:
                 "condition": part.condition,
                 "role": part.role,
                 "n": found.n,
+                "without_time": counted["finished_without_time"],
                 "unfinished": unfinished,
                 "not_driven": counted["not_driven"],
                 "mean_s": found.mean,

@@ -5,6 +5,7 @@ import pytest
 
 from analysis.flow import participants_flow
 from analysis.frames import study_frames
+from analysis.tables.lap_times import lap_time_table
 from protocols.record.reader import open_study
 
 
@@ -48,7 +49,7 @@ def test_nobody_finished_when_nothing_was(make_study):
 def test_laps_add_up(eventful):
     """Per condition, laps planned = finished + unfinished + not driven."""
     laps = participants_flow(study_frames(eventful)).laps.set_index("condition")
-    parts = laps.drop(columns="planned").sum(axis=1)
+    parts = laps.drop(columns=["planned", "finished_without_time"]).sum(axis=1)
     assert (laps["planned"] == parts).all()
     assert laps.loc["limited", "time_limit"] == 2
     assert laps.loc["human-assisted", "withdrew"] == 1
@@ -61,6 +62,20 @@ def test_who_leaves_in_practice_is_in_every_denominator(make_study):
     assert (flow.analysed, flow.completed) == (3, 2)
     assert flow.laps["planned"].tolist() == [3] * 4
     assert flow.laps["not_driven"].tolist() == [1] * 4
+
+
+def test_a_finished_lap_without_a_time_is_counted(make_study):
+    """Finished = timed + without a time, in the lap flow and beside the lap times."""
+    folder = make_study(participants=3).folder
+    laps = pd.read_parquet(folder / "laps.parquet")
+    laps.loc[(laps["participant"] == "P0001") & (laps["lap"] == 2), "lap_time_s"] = None
+    laps.to_parquet(folder / "laps.parquet")
+    frames = study_frames(open_study(folder))
+    flow = participants_flow(frames).laps.set_index("condition")
+    assert flow.loc["limited", ["finished", "finished_without_time"]].tolist() == [3, 1]
+    times = lap_time_table(frames).set_index("condition")
+    assert times.loc["limited", ["n", "without_time"]].tolist() == [2, 1]
+    assert times["without_time"].sum() == 1
 
 
 def test_withdrawals_keep_their_words(eventful):

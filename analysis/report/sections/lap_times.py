@@ -45,6 +45,7 @@ def lap_time_section(results: StudyResults) -> Section:
 _TIMES = [
     Shown("condition", lambda r: r["condition"], words=True),
     Shown("n", lambda r: count(r["n"])),
+    Shown("finished, no time", lambda r: count(r["without_time"])),
     Shown("unfinished", lambda r: count(r["unfinished"])),
     Shown("not driven", lambda r: count(r["not_driven"])),
     Shown("mean", lambda r: number(r["mean_s"])),

@@ -47,6 +47,7 @@ _LAPS = [
     Shown("condition", lambda r: r["condition"], words=True),
     Shown("planned", lambda r: count(r["planned"])),
     Shown("finished", lambda r: count(r["finished"])),
+    Shown("of these without a time", lambda r: count(r["finished_without_time"])),
     Shown("time limit", lambda r: count(r["time_limit"])),
     Shown("withdrew", lambda r: count(r["withdrew"])),
     Shown("otherwise unfinished", lambda r: count(r["unfinished_otherwise"])),
