@@ -1,7 +1,7 @@
 """Everything that is computed about a study, before anything is written about it."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import pandas as pd
 
@@ -140,12 +140,25 @@ def _overlap(frames: StudyFrames, records: LapRecords) -> TestResult | None:
     pair = first(frames.parts, "demonstrator"), first(frames.parts, "model")
     if None in pair:
         return None
+    seen = _seen(records.steps, list(frames.participants["participant"]), pair)
     grid = plan_grid(frames.study.course)
-    people = list(frames.participants["participant"])
     maps = [
-        participant_maps(records.steps[records.steps["condition"] == c], people, grid) for c in pair
+        participant_maps(records.steps[records.steps["condition"] == c], seen, grid) for c in pair
     ]
-    return map_overlap(maps[0], maps[1], generator(frames.study, "map overlap"))
+    found = map_overlap(maps[0], maps[1], generator(frames.study, "map overlap"))
+    unseen = len(frames.participants) - len(seen)
+    people_left_out = "1 participant" if unseen == 1 else f"{unseen} participants"
+    note = f"{people_left_out} without recorded steps in both conditions left out"
+    return replace(found, notes=(*found.notes, note)) if unseen else found
+
+
+def _seen(
+    steps: pd.DataFrame, people: Sequence[str], conditions: Iterable[str | None]
+) -> list[str]:
+    """Return of whom it is known, in every condition, where they were and whether helped."""
+    known = steps[steps[["helped", "x_m", "y_m"]].notna().all(axis=1)]
+    there = [set(known.loc[known["condition"] == c, "participant"].unique()) for c in conditions]
+    return [who for who in people if all(who in place for place in there)]
 
 
 def _survey(frames: StudyFrames, instrument: Instrument) -> SurveyResults:

@@ -58,7 +58,8 @@ def _overlap(found: TestResult | None) -> str:
     if found is None:
         return "There is no second source of assistance to compare the map with."
     if not found.computed:
-        return f"How far the two maps overlap cannot be computed: {found.why_not}."
+        why = "; ".join([str(found.why_not), *found.notes])
+        return f"How far the two maps overlap cannot be computed: {why}."
     return (
         f"Overlap of the demonstrator's and the model's map: {number(found.estimate, 2)} "
         f"(0 disjoint, 1 the same; n = {found.n} participants"
