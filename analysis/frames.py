@@ -1,5 +1,6 @@
 """The study's tables as data frames, and which rows an analysis may use."""
 
+import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -7,6 +8,7 @@ import pandas as pd
 import pyarrow as pa
 
 from analysis.roles import Part, cast
+from protocols.errors import InputError
 from protocols.record.reader import Study
 from protocols.study import StudyProtocol
 
@@ -114,3 +116,8 @@ def refused(participants: pd.DataFrame) -> pd.Series:
     """Return who refused consent; a consent nobody recorded is not a refusal."""
     consented: pd.Series = participants["consented"].fillna(value=True).astype(bool)
     return ~consented
+
+
+def within(study: Study, error: InputError) -> str:
+    """Return what is wrong with a file, its path from the study's folder: a report may be moved."""
+    return str(error).replace(f"{study.folder}{os.sep}", "")

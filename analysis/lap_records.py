@@ -7,9 +7,11 @@ from dataclasses import dataclass, field
 import numpy as np
 import pandas as pd
 
-from analysis.frames import StudyFrames, as_frame
+from analysis.frames import StudyFrames, as_frame, within
 from analysis.measures.registry import MEASURES
 from analysis.measures.streams import Steps, gaps, helped, stream
+from protocols.errors import InputError
+from protocols.record.reader import Study
 from protocols.record.steps import STEP_COLUMNS
 
 POOLED = ("x_m", "y_m", "h_would", "p_help")
@@ -28,11 +30,13 @@ class LapRecords:
         One row per step: participant, condition, position, whether assistance counted (``helped``,
         0, 1 or NaN), h_would, p_help, section and its kind.
     without_steps
-        Analysed laps whose steps were not recorded.
+        Analysed laps whose steps were not recorded: no step table, an empty one, or a damaged one.
     unrecorded
         Step columns without a value in any analysed lap.
     gaps
         What cannot be used of steps that were recorded, in words, and in how many laps.
+    damaged
+        Step tables that cannot be read, and why, in words; their laps count as without steps.
     """
 
     measures: pd.DataFrame
@@ -40,33 +44,34 @@ class LapRecords:
     without_steps: int
     unrecorded: tuple[str, ...] = ()
     gaps: Mapping[str, int] = field(default_factory=dict)
+    damaged: tuple[str, ...] = ()
 
 
 def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None) -> LapRecords:
     """Read the steps of every analysed lap once.
 
-    Raises
-    ------
-    InputError
-        When a step file is damaged; names it.
+    A step table that cannot be read is named, and its lap kept as one without steps: the other
+    laps are not worth less for it.
     """
-    rows, pooled, without = [], [], 0
+    rows, pooled = [], []
     unrecorded = [column.name for column in STEP_COLUMNS]
     found: Counter[str] = Counter()
+    damaged: list[str] = []
     laps = frames.laps
     keys = zip(laps["participant"], laps["lap"], laps["condition"], laps["completed"], strict=True)
     for done, (participant, lap, condition, completed) in enumerate(keys):
         if progress is not None and done % 20 == 0:
             progress(f"Measuring laps: {done} of {len(laps)}")
         where = {"participant": participant, "lap": lap, "condition": condition}
-        if frames.study.has_steps(participant, lap):
-            steps = as_frame(frames.study.steps(participant, lap))
+        try:
+            steps = _steps(frames.study, participant, lap)
+        except InputError as error:
+            damaged.append(within(frames.study, error))
+            steps = pd.DataFrame()
+        if len(steps):
             found.update(gaps(steps))
             pooled.append(_kept(steps, participant, condition))
             unrecorded = [name for name in unrecorded if steps[name].isna().all()]
-        else:
-            steps = pd.DataFrame()
-            without += 1
         measured = {m.name: m.of(steps) for m in MEASURES} if len(steps) else {}
         rows.append({**where, "completed": bool(completed), **measured})
     names = [m.name for m in MEASURES]
@@ -74,8 +79,21 @@ def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None
     measures = pd.DataFrame(rows, columns=columns).astype(
         {**dict.fromkeys(names, "float64"), "completed": "bool"}
     )
-    nowhere = tuple(unrecorded) if pooled else ()
-    return LapRecords(measures, _together(pooled), without, nowhere, dict(sorted(found.items())))
+    return LapRecords(
+        measures=measures,
+        steps=_together(pooled),
+        without_steps=len(laps) - len(pooled),
+        unrecorded=tuple(unrecorded) if pooled else (),
+        gaps=dict(sorted(found.items())),
+        damaged=tuple(damaged),
+    )
+
+
+def _steps(study: Study, participant: str, lap: int) -> Steps:
+    """Return a lap's steps; an empty frame when they were not recorded."""
+    if not study.has_steps(participant, lap):
+        return pd.DataFrame()
+    return as_frame(study.steps(participant, lap))
 
 
 def _kept(steps: Steps, participant: str, condition: str) -> pd.DataFrame:

@@ -46,6 +46,26 @@ def test_a_lap_without_a_step_table_is_counted(make_study):
     assert gaps["path_length_m"].isna().all()
 
 
+def test_an_empty_step_table_counts_as_none(make_study):
+    """A table without a row says nothing: its lap is one without steps, and no column suffers."""
+    study = make_study(participants=2)
+    path = study.folder / "sessions" / "P0001" / "steps-4.parquet"
+    pd.read_parquet(path).iloc[:0].to_parquet(path)
+    records = read_laps(study_frames(study))
+    assert (records.without_steps, records.unrecorded, records.damaged) == (1, (), ())
+
+
+def test_a_damaged_step_table_is_named_and_the_rest_measured(make_study):
+    """Half a file: its lap has no measures, all the others do."""
+    study = make_study(participants=2)
+    path = study.folder / "sessions" / "P0001" / "steps-4.parquet"
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+    records = read_laps(study_frames(study))
+    assert records.without_steps == 1
+    assert records.damaged[0].startswith("sessions/P0001/steps-4.parquet: ")
+    assert records.measures["path_length_m"].notna().sum() == 7
+
+
 def test_progress_is_told(study):
     """Long work says what it is doing."""
     said = []

@@ -22,11 +22,13 @@ def people_section(results: StudyResults) -> Section:
         blocks.append(_why_they_left(results.flow.withdrawals))
     blocks.append(Paragraph(_who(results.frames.participants)))
     blocks += [Caution(f"Not analysed: {what}.") for what in results.flow.left_out]
+    blocks += [Caution(f"Not read, and treated as missing: {what}.") for what in _unread(results)]
     if results.records.without_steps:
         blocks.append(
             Paragraph(
-                f"{plural(results.records.without_steps, 'lap')} came without a step table: lap "
-                "times and answers are analysed, measures from steps are missing there."
+                f"{plural(results.records.without_steps, 'lap')} came without steps (no step "
+                "table, an empty or a damaged one): lap times and answers are analysed, measures "
+                "from steps are missing there."
             )
         )
     if results.records.unrecorded:
@@ -41,6 +43,10 @@ def people_section(results: StudyResults) -> Section:
         for gap, laps in results.records.gaps.items()
     ]
     return Section("participants", "Participants", tuple(blocks))
+
+
+def _unread(results: StudyResults) -> tuple[str, ...]:
+    return results.records.damaged
 
 
 _LAPS = [

@@ -192,7 +192,7 @@ def test_minimal_tables_from_elsewhere_are_reported(make_study):
     study.laps.select(laps).to_pandas().to_parquet(folder / "laps.parquet")
     page = build_page(analyse(open_study(folder)))
     text = render(page, {picture.name: b"" for picture in page.pictures})
-    assert "8 laps came without a step table" in text
+    assert "8 laps came without steps" in text
     assert "s faster" in text
 
 
@@ -250,7 +250,20 @@ def test_a_failure_leaves_the_old_report(tmp_path):
     assert [p.name for p in tmp_path.iterdir()] == ["report"]
 
 
-@pytest.mark.parametrize("what", ["nothing", "no study", "corrupt table", "corrupt steps"])
+def test_a_damaged_step_table_does_not_stop_the_report(make_study):
+    """The file is named on the page; the participant is missing from the overlap, and counted."""
+    study = make_study(participants=4)
+    (study.folder / "sessions" / "P0002" / "steps-4.parquet").write_bytes(b"PAR1 is not enough")
+    results = analyse(study)
+    page = build_page(results)
+    text = render(page, {picture.name: b"" for picture in page.pictures})
+    assert "Not read, and treated as missing: sessions/P0002/steps-4.parquet: " in text
+    note = "1 participant without recorded steps in both conditions left out"
+    assert (results.overlap.n, results.overlap.notes) == (3, (note,))
+    assert note in text
+
+
+@pytest.mark.parametrize("what", ["nothing", "no study", "corrupt table"])
 def test_bad_input_is_one_clear_line(make_study, tmp_path, what):
     """No folder, no study in it, a damaged file: where and what, and no report."""
     folder = tmp_path / "nothing"
@@ -258,8 +271,7 @@ def test_bad_input_is_one_clear_line(make_study, tmp_path, what):
         folder.mkdir()
     elif what.startswith("corrupt"):
         folder = make_study(participants=2).folder
-        name = "laps.parquet" if what == "corrupt table" else "sessions/P0002/steps-3.parquet"
-        (folder / name).write_bytes(b"PAR1 is not enough")
+        (folder / "laps.parquet").write_bytes(b"PAR1 is not enough")
     with pytest.raises(InputError, match=re.escape(str(folder))):
         write_report(folder)
     assert not (folder / "report").exists()
