@@ -13,7 +13,7 @@ from protocols.record.identity import study_digest
 from protocols.record.logs import failures
 from protocols.record.merge import STUDY_TABLES, session_rows
 from protocols.record.parquet import parquet_shape, read_parquet
-from protocols.record.reader import open_study
+from protocols.record.reader import off_scale, open_study
 from protocols.record.rows import participant_id
 from protocols.record.session import (
     LAPS_FILE,
@@ -77,6 +77,8 @@ def _foreign_faults(folder: Path) -> Iterator[str]:
         ):
             if study.has_steps(participant, lap):
                 study.steps(participant, lap)
+        for _, fault in off_scale(study):
+            yield fault
     except InputError as error:
         yield str(error)
 

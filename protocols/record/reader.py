@@ -1,7 +1,7 @@
 """Read a study directory: one of ours, or one that was recorded elsewhere in our schema."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -80,10 +80,7 @@ class Study:
         if self.seed is None and not (self.folder / SURVEYS_TABLE).exists():
             nothing = pa.schema([pa.field(c.name, c.type) for c in SURVEYS.columns]).empty_table()
             return conform(nothing, SURVEYS, self.folder / SURVEYS_TABLE)
-        answers = self._table(SURVEYS_TABLE, SURVEYS)
-        for instrument in self.instruments:
-            _check_answers(answers, instrument, self.folder / SURVEYS_TABLE)
-        return answers
+        return self._table(SURVEYS_TABLE, SURVEYS)
 
     def sessions(self) -> tuple[str, ...]:
         """Return the participants with a session folder, sorted."""
@@ -163,17 +160,17 @@ class Study:
         return conform(read_parquet(path), rules, path)
 
 
-def _check_answers(answers: pa.Table, instrument: Instrument, path: Path) -> None:
-    """Refuse an answer that is no point of its instrument's scale."""
+def off_scale(study: Study) -> Iterator[tuple[int, str]]:
+    """Yield the row of every answer that is no point of its instrument's scale, and a message."""
+    answers = study.surveys
     given = answers["response"]
-    off = pc.or_(pc.less(given, 1), pc.greater(given, instrument.points))
-    wrong = pc.and_(pc.equal(answers["instrument"], instrument.name), off)
-    row = pc.index(wrong, value=True).as_py()
-    if row >= 0:
-        raise InputError(
-            f"{path}: column response: {given[row].as_py()} in row {row}; "
-            f"allowed: 1 to {instrument.points} ({instrument.name}), or nothing"
-        )
+    for instrument in study.instruments:
+        off = pc.or_(pc.less(given, 1), pc.greater(given, instrument.points))
+        wrong = pc.fill_null(pc.and_(pc.equal(answers["instrument"], instrument.name), off), False)
+        allowed = f"1 to {instrument.points} ({instrument.name}), or nothing"
+        for row in pc.indices_nonzero(wrong).to_pylist():
+            where = f"{study.folder / SURVEYS_TABLE}: column response"
+            yield row, f"{where}: {given[row].as_py()} in row {row}; allowed: {allowed}"
 
 
 def open_study(folder: Path | str) -> Study:
@@ -196,11 +193,24 @@ def open_study(folder: Path | str) -> Study:
     has_tables = (folder / PARTICIPANTS_TABLE).exists()
     if not has_tables and not study.sessions():
         raise InputError(f"{folder}: no session in it yet; run the study first")
-    if not len(study.participants) or not len(study.laps):
-        raise InputError(f"{folder}: no session in it yet; run the study first")
-    len(study.surveys)
+    for name, rows in ((PARTICIPANTS_TABLE, study.participants), (LAPS_TABLE, study.laps)):
+        if not len(rows):
+            raise InputError(f"{folder / name}: has no row{_what_to_do(study)}")
+    if study.seed is not None:  # elsewhere nobody can make them anew: their faults are reported
+        for _, fault in off_scale(study):
+            raise InputError(fault)
     _refuse_stale_tables(study)
     return study
+
+
+def _what_to_do(study: Study) -> str:
+    """Return how a table without a row comes to have some."""
+    if study.seed is None:
+        return "; a report needs at least one participant and one lap"
+    n = len(study.sessions())
+    if not n:
+        return " and there is no session in the study yet; run it first"
+    return f", but there are {n} sessions; the same `lad-study run` again makes it anew"
 
 
 def _refuse_stale_tables(study: Study) -> None:

@@ -1,5 +1,6 @@
 """Reading a study directory."""
 
+import re
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -9,7 +10,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from protocols.errors import InputError
-from protocols.record.reader import open_study
+from protocols.record.check import check_study
+from protocols.record.reader import off_scale, open_study
 from protocols.record.session import SessionRecord, encode
 from protocols.record.store import build_tables, open_folder, write_failure, write_session
 from protocols.resolved import ResolvedStudy
@@ -149,3 +151,37 @@ def test_an_answer_off_the_scale_is_named(folder: Path, given: int):
     said = f"column response: {given} in row {len(answers) - 1}; allowed: 1 to 5"
     with pytest.raises(InputError, match=said):
         _ = open_study(folder).surveys
+
+
+def test_answers_from_elsewhere_are_not_refused(folder: Path):
+    """Nobody can run that study again: it opens, and whoever reads the answers is told."""
+    header = folder / "study.yaml"
+    header.write_text(re.sub("(?m)^seed: .*$", "seed: null", header.read_text()))
+    path = folder / "surveys.parquet"
+    answers = pq.read_table(path)
+    place = answers.schema.get_field_index("response")
+    field = answers.schema.field(place)
+    nine = pa.array([9, *answers["response"].to_pylist()[1:]], field.type)
+    pq.write_table(answers.set_column(place, field, nine), path)
+    said = f"{path}: column response: 9 in row 0; allowed: 1 to 5 (driving-assistance), or nothing"
+    assert list(off_scale(open_study(folder))) == [(0, said)]
+    assert said in check_study(folder)
+    path.write_bytes(path.read_bytes()[:-20])
+    assert open_study(folder).laps.num_rows == 6
+
+
+@pytest.mark.parametrize(
+    ("seed", "said"),
+    [
+        ("0", "has no row, but there are 3 sessions; the same `lad-study run` again makes it anew"),
+        ("null", "has no row; a report needs at least one participant and one lap"),
+    ],
+)
+@pytest.mark.parametrize("name", ["participants", "laps"])
+def test_a_table_without_a_row_says_what_to_do(folder: Path, name: str, seed: str, said: str):
+    """To run a study that has its sessions, or was not run here, would be wrong advice."""
+    header = folder / "study.yaml"
+    header.write_text(re.sub("(?m)^seed: .*$", f"seed: {seed}", header.read_text()))
+    path = folder / f"{name}.parquet"
+    pq.write_table(pq.read_table(path)[:0], path)
+    assert _refused(folder) == f"{path}: {said}"
