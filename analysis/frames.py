@@ -4,12 +4,14 @@ import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+import numpy as np
 import pandas as pd
 import pyarrow as pa
 
 from analysis.roles import Part, cast
 from protocols.errors import InputError
-from protocols.record.reader import Study
+from protocols.record.reader import Study, off_scale
+from protocols.record.tables import SURVEY_SCHEMA
 from protocols.study import StudyProtocol
 
 
@@ -33,6 +35,10 @@ class StudyFrames:
     surveys
         Their answers, missing ones as NaN: one of each person to each item in each condition. Where
         a condition was driven more than once, the last answer given counts.
+    answers
+        Everybody's answers as they were recorded; those off their scale as NaN.
+    unread
+        What of the answers could not be read, in words.
     """
 
     study: Study
@@ -41,6 +47,8 @@ class StudyFrames:
     participants: pd.DataFrame
     laps: pd.DataFrame
     surveys: pd.DataFrame
+    answers: pd.DataFrame
+    unread: tuple[str, ...] = ()
 
     @property
     def conditions(self) -> tuple[str, ...]:
@@ -57,13 +65,17 @@ def study_frames(study: Study) -> StudyFrames:
     laps = laps[laps["condition"].isin([part.condition for part in parts])]
     # Whatever stands there: a lap that was not finished has no lap time.
     laps = laps.assign(lap_time_s=laps["lap_time_s"].where(laps["completed"].astype(bool)))
+    answers, unread = _answers(study)
+    counted = counted_answers(study, answers, kept["participant"])
     return StudyFrames(
         study=study,
         parts=parts,
         everybody=everybody,
         participants=kept.reset_index(drop=True),
         laps=laps.reset_index(drop=True),
-        surveys=last_answers(counted_answers(study, kept["participant"])).reset_index(drop=True),
+        surveys=last_answers(counted).reset_index(drop=True),
+        answers=answers,
+        unread=unread,
     )
 
 
@@ -73,13 +85,30 @@ def counted_laps(study: Study, participants: Iterable[str]) -> pd.DataFrame:
     return laps[laps["participant"].isin(list(participants)) & ~practised(laps, study.protocol)]
 
 
-def counted_answers(study: Study, participants: Iterable[str]) -> pd.DataFrame:
-    """Return the answers of some people as they were recorded, those after practice left out."""
-    answers, laps = as_frame(study.surveys), as_frame(study.laps)
+def counted_answers(
+    study: Study, answers: pd.DataFrame, participants: Iterable[str]
+) -> pd.DataFrame:
+    """Return some people's answers, those after practice left out."""
+    laps = as_frame(study.laps)
     practice = laps.loc[practised(laps, study.protocol), ["participant", "lap"]]
     driven = pd.MultiIndex.from_frame(answers[["participant", "lap"]])
     after_practice = driven.isin(pd.MultiIndex.from_frame(practice))
     return answers[answers["participant"].isin(list(participants)) & ~after_practice]
+
+
+def _answers(study: Study) -> tuple[pd.DataFrame, tuple[str, ...]]:
+    """Return the answers that can be read, and what is wrong with the others, in words."""
+    try:
+        answers = as_frame(study.surveys)
+    except InputError as error:
+        return as_frame(SURVEY_SCHEMA.empty_table()), (within(study, error),)
+    wrong = dict(off_scale(study))
+    if not wrong:
+        return answers, ()
+    answers["response"] = answers["response"].astype("float64")
+    answers.loc[list(wrong), "response"] = np.nan
+    more = f" (and {len(wrong) - 1} more)" if len(wrong) > 1 else ""
+    return answers, (within(study, next(iter(wrong.values()))) + more,)
 
 
 def last_answers(answers: pd.DataFrame) -> pd.DataFrame:
@@ -118,6 +147,6 @@ def refused(participants: pd.DataFrame) -> pd.Series:
     return ~consented
 
 
-def within(study: Study, error: InputError) -> str:
+def within(study: Study, fault: InputError | str) -> str:
     """Return what is wrong with a file, its path from the study's folder: a report may be moved."""
-    return str(error).replace(f"{study.folder}{os.sep}", "")
+    return str(fault).replace(f"{study.folder}{os.sep}", "")

@@ -29,8 +29,8 @@ def _laps(frames: StudyFrames) -> Iterator[str]:
 
 def _answers(frames: StudyFrames) -> Iterator[str]:
     study = frames.study
-    yield from _strangers(frames, as_frame(study.surveys), "answer")
-    answers = counted_answers(study, frames.participants["participant"])
+    yield from _strangers(frames, frames.answers, "answer")
+    answers = counted_answers(study, frames.answers, frames.participants["participant"])
     yield from _conditions(frames, answers, "answer")
     items = {instrument.name: instrument.ids(assisted=True) for instrument in study.instruments}
     yield from _unknown(answers["instrument"], set(items), "answer", "instruments")

@@ -1,11 +1,16 @@
 """Which laps and answers are analysed, and what of them."""
 
+import re
+
 import pandas as pd
 import pytest
 
 from analysis.flow import participants_flow
 from analysis.frames import study_frames
 from analysis.outcomes import answers_by_participant
+from analysis.report.page import build_page
+from analysis.report.render import render
+from analysis.results import analyse
 from protocols.record.reader import open_study
 
 TWICE = """
@@ -121,3 +126,36 @@ def test_answers_that_nobody_can_use_are_named(make_study):
         "1 answer of conditions that the study does not have (zzz)",
         "1 answer of items of driving-assistance that the study does not have (Q99)",
     )
+
+
+@pytest.fixture
+def elsewhere(make_study):
+    """Return the folder of a study that was not simulated."""
+    folder = make_study(participants=2).folder
+    header = folder / "study.yaml"
+    header.write_text(re.sub("(?m)^seed: .*$", "seed: null", header.read_text()))
+    return folder
+
+
+def test_answers_off_the_scale_are_missing(elsewhere):
+    """Every other answer counts, and the page is told which row it is."""
+    path = elsewhere / "surveys.parquet"
+    surveys = pd.read_parquet(path)
+    surveys.loc[[3, 5], "response"] = 9
+    surveys.to_parquet(path)
+    frames = study_frames(open_study(elsewhere))
+    assert frames.surveys["response"].isna().sum() == 2
+    assert frames.surveys["response"].max() <= 5
+    said = "column response: 9 in row 3; allowed: 1 to 5 (driving-assistance), or nothing"
+    assert frames.unread == (f"surveys.parquet: {said} (and 1 more)",)
+
+
+def test_without_readable_answers_the_rest_is_reported(elsewhere):
+    """A damaged table of answers is named; lap times and all else are there."""
+    path = elsewhere / "surveys.parquet"
+    path.write_bytes(path.read_bytes()[:-20])
+    results = analyse(open_study(elsewhere))
+    page = build_page(results)
+    text = render(page, {picture.name: b"" for picture in page.pictures})
+    assert "Not read, and treated as missing: surveys.parquet: not a readable Parquet" in text
+    assert results.lap_times[0].complete == 2

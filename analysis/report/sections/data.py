@@ -33,12 +33,11 @@ def data_section(results: StudyResults) -> Section:
 def _missing(results: StudyResults) -> pd.DataFrame:
     study = results.frames.study
     rows: list[dict[str, Any]] = []
-    for name, recorded in (
-        ("participants", study.participants),
-        ("laps", study.laps),
-        ("surveys", study.surveys),
+    for name, frame in (
+        ("participants", results.frames.everybody),
+        ("laps", as_frame(study.laps)),
+        ("surveys", results.frames.answers),
     ):
-        frame = as_frame(recorded)
         for column in frame.columns:
             absent = int(frame[column].isna().sum())
             if absent:

@@ -46,7 +46,7 @@ def people_section(results: StudyResults) -> Section:
 
 
 def _unread(results: StudyResults) -> tuple[str, ...]:
-    return results.records.damaged
+    return (*results.frames.unread, *results.records.damaged)
 
 
 _LAPS = [
