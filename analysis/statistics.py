@@ -29,6 +29,8 @@ def statistics_json(results: StudyResults) -> str:
         },
         "flow": results.flow,
         "laps_without_steps": results.records.without_steps,
+        "not_read": (*results.frames.unread, *results.records.damaged),
+        "gaps_in_steps": results.records.gaps,
         "declared_comparisons": results.declared,
         "lap_times": results.lap_times,
         "mixed_model": results.model,
