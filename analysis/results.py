@@ -96,7 +96,7 @@ def analyse(study: Study, progress: Progress | None = None) -> StudyResults:
     Raises
     ------
     InputError
-        When a table or a step file cannot be used.
+        When the table of participants or of laps cannot be used.
     """
     frames = study_frames(study)
     records = read_laps(frames, progress)
