@@ -1,5 +1,6 @@
 """Tasks on a Dask cluster, when one machine is not enough: ``pip install 'lad-study[cluster]'``."""
 
+import gc
 import logging
 import pickle
 import socket
@@ -205,13 +206,19 @@ def cluster(scheduler: str) -> Iterator[Cluster]:
         ) from None
     for name in ("distributed", "distributed.client", "tornado.application"):
         logging.getLogger(name).setLevel(logging.CRITICAL)  # what matters is raised
+    client, reason = None, ""
     try:
         client = Client(scheduler, timeout=PATIENCE_S)
     except (OSError, ValueError, TypeError) as error:  # the last one by tls:// without keys
+        reason = type(error).__name__
+    if client is None:
+        # The client that could not connect closes when it is collected, and waits for ever if that
+        # comes to pass while the next one is being made: Dask's lock is not reentrant.
+        gc.collect()
         raise InputError(
-            f"--scheduler: no Dask scheduler answers at {scheduler!r} ({type(error).__name__}); "
+            f"--scheduler: no Dask scheduler answers at {scheduler!r} ({reason}); "
             "allowed: an address like tcp://host:8786"
-        ) from None
+        )
     with client:
         _wait_for_a_worker(client, scheduler)
         yield Cluster(client, scheduler)

@@ -76,7 +76,8 @@ def write_timing(folder: Path, participant: str, wall_s: float) -> None:
 
 def write_death(folder: Path, participant: str, reason: str) -> None:
     """Add to ``logs/deaths.csv`` that a process died during a session, which is run again."""
-    _append(folder, "deaths.csv", f"{participant},{reason}", header="participant,reason")
+    quoted = reason.replace('"', '""')
+    _append(folder, "deaths.csv", f'{participant},"{quoted}"', header="participant,reason")
 
 
 def write_warnings(folder: Path, participant: str, warned: Sequence[str]) -> None:

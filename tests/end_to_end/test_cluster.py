@@ -129,7 +129,7 @@ def test_a_machine_that_lacks_something_leaves(scheduler, add_worker, start, wai
     assert check_study(out) == ()
     doomed.wait(60)
     for death in (out / "logs" / "deaths.csv").read_text().splitlines()[1:]:
-        assert f",on {socket.gethostname()}: " in death
+        assert f',"on {socket.gethostname()}: ' in death
         assert "No module named 'odd_driver'" in death
 
 
