@@ -56,7 +56,7 @@ def _last_error(trace: str) -> str:
     """Return the first line of the message a traceback ends with: it follows the code's lines."""
     lines = trace.strip().splitlines()
     code = [i for i, line in enumerate(lines) if line.startswith("  ")]
-    after = lines[code[-1] + 1 :] if code else lines
+    after = lines[code[-1] + 1 :] if code else lines[-1:]
     return (after or lines or [""])[0]
 
 

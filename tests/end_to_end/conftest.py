@@ -120,7 +120,7 @@ def start_quick(start):
 
 @pytest.fixture(scope="session")
 def record():
-    """Return the function that reads a study's record: every file but logs, report and head."""
+    """Return the function that reads a study's record: all but logs, report, head and lock."""
 
     def read(folder):
         files = (p for p in folder.rglob("*") if p.is_file())
@@ -128,7 +128,7 @@ def record():
         return {
             name: path.read_bytes()
             for name, path in named.items()
-            if not name.startswith(("logs/", "report/")) and name != "study.yaml"
+            if not name.startswith(("logs/", "report/")) and name not in {"study.yaml", ".lock"}
         }
 
     return read
