@@ -70,7 +70,7 @@ def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None
             steps = pd.DataFrame()
         if len(steps):
             found.update(gaps(steps))
-            pooled.append(_kept(steps, participant, condition))
+            pooled.append(_kept(steps, participant, lap, condition))
             unrecorded = [name for name in unrecorded if steps[name].isna().all()]
         measured = {m.name: m.of(steps) for m in MEASURES} if len(steps) else {}
         rows.append({**where, "completed": bool(completed), **measured})
@@ -96,7 +96,7 @@ def _steps(study: Study, participant: str, lap: int) -> Steps:
     return as_frame(study.steps(participant, lap))
 
 
-def _kept(steps: Steps, participant: str, condition: str) -> pd.DataFrame:
+def _kept(steps: Steps, participant: str, lap: int, condition: str) -> pd.DataFrame:
     on = helped(steps)
     unknown = np.full(len(steps), np.nan)
     frame = pd.DataFrame({name: stream(steps, name).astype(np.float32) for name in POOLED})
@@ -104,14 +104,15 @@ def _kept(steps: Steps, participant: str, condition: str) -> pd.DataFrame:
     for name in ("section", "section_kind"):
         frame[name] = pd.Categorical(steps[name].to_numpy(dtype=object))
     frame.insert(0, "participant", participant)
-    frame.insert(1, "condition", condition)
+    frame.insert(1, "lap", np.int16(lap))
+    frame.insert(2, "condition", condition)
     return frame
 
 
 def _together(pooled: Sequence[pd.DataFrame]) -> pd.DataFrame:
     labels = ("participant", "condition", "section", "section_kind")
     if not pooled:
-        names = [*labels, *POOLED, "helped"]
+        names = [*labels, "lap", *POOLED, "helped"]
         return pd.DataFrame({name: pd.Series(dtype="float64") for name in names})
     frame = pd.concat(pooled, ignore_index=True)
     return frame.astype(dict.fromkeys(labels, "category"))

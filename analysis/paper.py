@@ -63,7 +63,8 @@ PAPER: dict[str, PaperFigure] = {
     "people/model-1/speedup": PaperFigure(
         137, "%", "V.B", "limited / model", "the ratio of the means, 76.7 / 56.1"),
     "people/model-1/auc": PaperFigure(
-        0.95, "", "abstract, IV.D", "when-AUC after one demonstration (autonomous driver)"),
+        0.95, "", "abstract, IV.D", "when-AUC after one demonstration",
+        "the paper's is the autonomous driver's: it gives none for people"),
     "people/demonstrator/Q5": PaperFigure(
         80, "%", "V.C", "agree that the assistance was helpful",
         "80% of 11 answers is impossible; 8 of 10 is not: one answer may be missing"),

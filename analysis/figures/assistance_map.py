@@ -28,7 +28,7 @@ def assistance_map(steps: pd.DataFrame, course: Course, conditions: Sequence[str
     Parameters
     ----------
     steps
-        One row per step: participant, condition, x_m, y_m, helped.
+        One row per step: participant, lap, condition, x_m, y_m, helped.
     course
         Where it was driven.
     conditions
@@ -77,8 +77,9 @@ def _density(axes: Axes, values: Numbers, grid: Grid, top: float) -> AxesImage:
 def _paths(axes: Axes, steps: pd.DataFrame) -> None:
     everybody = steps["participant"].astype(str).unique()
     chosen = everybody[:: -(-len(everybody) // MOST_PATHS) or 1]
-    lines = [
-        steps.loc[steps["participant"] == who, ["x_m", "y_m"]].to_numpy()[::3] for who in chosen
-    ]
+    driven = steps[steps["participant"].isin(chosen)]
+    # A lap each: joined, a person's laps would be linked by a line from finish to start.
+    laps = driven.groupby(["participant", "lap"], observed=True)
+    lines = [lap[["x_m", "y_m"]].to_numpy()[::3] for _, lap in laps]
     alpha = max(0.12, min(0.6, 8 / max(len(lines), 1)))
     axes.add_collection(LineCollection(lines, colors=GREY, linewidths=0.5, alpha=alpha))

@@ -85,5 +85,6 @@ def _odds_ratio(result: TestResult | None) -> dict[str, float]:
 def _remarks(c: PairedComparison) -> list[str]:
     parts = [c.signed_rank, c.rank_biserial, c.dz, c.difference, c.equivalence, c.odds]
     results = [r for r in parts if r is not None]
-    reasons = [f"{r.name}: {r.why_not}" for r in results if r.why_not is not None]
-    return [*reasons, *c.signed_rank.notes]
+    said = [(r.name, r.why_not) for r in results if r.why_not is not None]
+    said += [(r.name, note) for r in results if r is not c.signed_rank for note in r.notes]
+    return [*(f"{name}: {text}" for name, text in said), *c.signed_rank.notes]

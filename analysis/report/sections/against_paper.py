@@ -1,6 +1,7 @@
 """Our numbers beside the paper's."""
 
-from analysis.report.blocks import Block, Paragraph, Section, Shown, table
+from analysis.report.blocks import Block, Caution, Paragraph, Section, Shown, table
+from analysis.report.sections.survey import ASSUMED
 from analysis.report.words import NOTHING, interval, number
 from analysis.results import StudyResults
 
@@ -14,6 +15,8 @@ def paper_section(results: StudyResults) -> Section:
             "remark says so."
         )
     ]
+    if (results.frames.participants["kind"] == "synthetic").any():
+        blocks.append(Caution(ASSUMED))
     if results.paper.empty:
         blocks.append(Paragraph("This study has no number that the paper prints."))
     else:

@@ -92,8 +92,13 @@ def _verdict(c: PairedComparison) -> str:
     p = c.p_holm if _corrected(c) else c.signed_rank.p
     if not math.isfinite(p) or p >= ALPHA:
         return "No difference is shown; that is not the same as no difference."
-    faster = c.signed_rank.estimate < 0
-    return f"Laps of {c.condition} are {'faster' if faster else 'slower'} than of {c.reference}."
+    direction = "faster" if c.signed_rank.estimate < 0 else "slower"
+    if not _corrected(c):
+        return (
+            f"Laps of {c.condition} tend to be {direction} than of {c.reference}; the test is "
+            "exploratory, its p is not corrected."
+        )
+    return f"Laps of {c.condition} are {direction} than of {c.reference}."
 
 
 def _p(c: PairedComparison) -> str:

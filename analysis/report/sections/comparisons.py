@@ -99,6 +99,7 @@ _TEST = [
 _HOLM = Shown("p (Holm)", lambda r: p_value(r["wilcoxon_p_holm"]))
 _EFFECTS = [
     _with_interval("mean difference", "mean_difference", 1),
+    _with_interval("pseudomedian", "pseudomedian", 1),
     _with_interval("rank-biserial", "rank_biserial", 2),
     _with_interval("d_z", "d_z", 2),
 ]

@@ -6,11 +6,16 @@ import pandas as pd
 
 from analysis.comparisons import PairedComparison
 from analysis.figures.likert import likert_figure
-from analysis.report.blocks import Block, Paragraph, Picture, Section, Shown, table
+from analysis.report.blocks import Block, Caution, Paragraph, Picture, Section, Shown, table
 from analysis.report.words import NOTHING, count, interval, number, p_value, percent
 from analysis.results import StudyResults, SurveyResults
 from analysis.roles import Part, first
 from analysis.tables.comparisons import comparison_table
+
+ASSUMED = (
+    "Answers of synthetic participants are drawn from a model with assumed loadings. Agreement "
+    "percentages are consequences of these assumptions, not findings."
+)
 
 
 def survey_section(results: StudyResults) -> Section:
@@ -19,6 +24,8 @@ def survey_section(results: StudyResults) -> Section:
         nothing = Paragraph("Nothing was asked in this study.")
         return Section("questionnaire", "Questionnaire", (nothing,))
     blocks: list[Block] = []
+    if (results.frames.participants["kind"] == "synthetic").any():
+        blocks.append(Caution(ASSUMED))
     for survey in results.surveys:
         blocks += _instrument(results, survey)
     return Section("questionnaire", "Questionnaire", tuple(blocks))

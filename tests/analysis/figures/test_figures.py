@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from analysis.comparisons import declared_comparisons
@@ -110,6 +111,16 @@ def test_parts_that_repeat_get_colours_of_their_own():
     """Two models in one study can be told apart."""
     parts = [Part(f"m{i}", "model", i) for i in range(4)]
     assert len(set(colours(parts).values())) == 4
+
+
+def test_laps_of_one_person_are_lines_of_their_own(study):
+    """No line runs from one lap's finish to the next one's start."""
+    rows = [("P1", lap, "model", x, lap, 0.0) for lap in (1, 2) for x in range(6)]
+    steps = pd.DataFrame(rows, columns=["participant", "lap", "condition", "x_m", "y_m", "helped"])
+    figure = assistance_map(steps.astype({"participant": "category"}), study.course, ["model"])
+    drawn = [c for c in figure.axes[0].collections if isinstance(c, LineCollection)]
+    paths = next(c for c in drawn if len(c.get_segments()) == 2).get_segments()
+    assert [set(path[:, 1]) for path in paths] == [{1.0}, {2.0}]
 
 
 def test_an_empty_study_of_steps_says_so(study):

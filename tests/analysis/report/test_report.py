@@ -196,6 +196,27 @@ def test_minimal_tables_from_elsewhere_are_reported(make_study):
     assert "s faster" in text
 
 
+def test_answers_of_synthetic_people_are_called_assumptions(study):
+    """In the questionnaire's section and beside the paper's percentages."""
+    page = build_page(analyse(study))
+    text = render(page, {picture.name: b"" for picture in page.pictures})
+    assert text.count("consequences of these assumptions, not findings") == 2
+
+
+def test_why_an_interval_is_missing_is_said(make_study):
+    """One participant: a mean, and a remark that says why it stands alone."""
+    page = build_page(analyse(make_study(participants=1)))
+    text = render(page, {picture.name: b"" for picture in page.pictures})
+    assert "mean difference: one pair: no interval and no t test" in text
+
+
+def test_folded_tables_are_printed(study):
+    """Paper cannot be unfolded."""
+    page = build_page(analyse(study))
+    text = render(page, {picture.name: b"" for picture in page.pictures})
+    assert "details::details-content { content-visibility: visible" in text
+
+
 def test_a_withdrawal_is_shown_in_its_words(make_study):
     """What a participant said is text on the page, whatever is in it; silence is said too."""
     words = {1: "<b>dizzy</b> & tired"}
