@@ -23,22 +23,23 @@ def comparison_section(results: StudyResults) -> Section:
             "Holm's correction within each family, of the test of equivalence (TOST) where a "
             "margin is declared."
         )
-        columns = [_NAMED, *_TEST, *_tost(confirmatory), _HOLM, *_KS]
+        columns = [_NAMED, *_TEST, *_tost(confirmatory), _HOLM]
         blocks += _table("confirmatory", caption, confirmatory, columns)
     else:
         blocks.append(Paragraph("The protocol declares no confirmatory comparison."))
     if declared:
         caption = "Exploratory comparisons that the protocol declares; p not corrected."
-        columns = [_NAMED, *_TEST, *_tost(declared), *_KS]
+        columns = [_NAMED, *_TEST, *_tost(declared)]
         blocks += _table("exploratory", caption, declared, columns)
     if others:
         caption = (
             "Exploratory: lap times of the pairs of conditions that the protocol does not declare; "
             "p not corrected. Differences in seconds, condition minus reference."
         )
-        blocks += _table("lap_time_comparisons", caption, others, [_PAIR, *_TEST, *_KS])
+        blocks += _table("lap_time_comparisons", caption, others, [_PAIR, *_TEST])
     if results.lap_times:
-        blocks.append(Paragraph(_ABOUT_KS))
+        frame = comparison_table(results.lap_times)
+        blocks.append(table("kolmogorov_smirnov", _ABOUT_KS, frame, [_PAIR, *_KS]))
     return Section("comparisons", "Comparisons", tuple(blocks))
 
 
@@ -57,9 +58,9 @@ def _tost(comparisons: Sequence[PairedComparison]) -> list[Shown]:
 
 
 _ABOUT_KS = (
-    "D and its p: Kolmogorov-Smirnov. It compares whole distributions and assumes two separate "
-    "groups; the paper used it on laps of the autonomous driver. Here both samples come from the "
-    "same people, so D and its p only describe."
+    "Kolmogorov-Smirnov, lap times of every two conditions. It compares whole distributions and "
+    "assumes two separate groups; the paper used it on laps of the autonomous driver. Here both "
+    "samples come from the same people, so D and its p only describe."
 )
 
 
