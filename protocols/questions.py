@@ -20,7 +20,7 @@ def laps_with_items(protocol: StudyProtocol, instruments: Instruments) -> tuple[
                 "survey": tuple(
                     SurveyPlan(
                         instrument=instruments[survey.instrument].name,
-                        items=_items(protocol, lap, survey, instruments),
+                        items=asked_items(protocol, lap, survey, instruments[survey.instrument]),
                     )
                     for survey in lap.survey
                 )
@@ -41,7 +41,7 @@ def _survey_faults(protocol: StudyProtocol, instruments: Instruments) -> Iterato
         for j, survey in enumerate(lap.survey):
             instrument = instruments[survey.instrument]
             ids = instrument.ids(assisted=True)
-            asked = _items(protocol, lap, survey, instruments)
+            asked = asked_items(protocol, lap, survey, instrument)
             if not asked:
                 message = f"no item of '{instrument.name}' applies to a lap without assistance"
                 yield Fault(("laps", i, "survey", j), message)
@@ -58,7 +58,7 @@ def _outcome_faults(protocol: StudyProtocol, instruments: Instruments) -> Iterat
         for lap in protocol.laps
         if not lap.practice
         for survey in lap.survey
-        for item in _items(protocol, lap, survey, instruments)
+        for item in asked_items(protocol, lap, survey, instruments[survey.instrument])
     }
     for i, comparison in enumerate(protocol.analyses):
         if comparison.item is None:
@@ -70,10 +70,11 @@ def _outcome_faults(protocol: StudyProtocol, instruments: Instruments) -> Iterat
                 yield Fault(("analyses", i, "outcome"), message)
 
 
-def _items(
-    protocol: StudyProtocol, lap: PlannedLap, survey: SurveyPlan, instruments: Instruments
+def asked_items(
+    protocol: StudyProtocol, lap: PlannedLap, survey: SurveyPlan, instrument: Instrument
 ) -> tuple[str, ...]:
+    """Return the ids of the items of an instrument that are asked after a lap."""
     if survey.items != "all":
         return survey.items
     assisted = protocol.conditions[lap.condition].assistant != "none"
-    return instruments[survey.instrument].ids(assisted=assisted)
+    return instrument.ids(assisted=assisted)

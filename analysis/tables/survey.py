@@ -4,6 +4,7 @@ import pandas as pd
 
 from analysis.frames import StudyFrames
 from protocols.instrument import Instrument
+from protocols.questions import asked_items
 from protocols.study import StudyProtocol
 
 
@@ -33,15 +34,13 @@ def planned_questions(
     protocol: StudyProtocol, instrument: Instrument
 ) -> frozenset[tuple[str, str]]:
     """Return the conditions and items in which a protocol asks an instrument, practice apart."""
-    asked = set()
-    for lap in protocol.laps:
-        assisted = protocol.conditions[lap.condition].assistant != "none"
-        for survey in lap.survey:
-            if not lap.practice and survey.instrument == instrument.name:
-                every = survey.items == "all"
-                items = instrument.ids(assisted=assisted) if every else survey.items
-                asked |= {(lap.condition, item) for item in items}
-    return frozenset(asked)
+    return frozenset(
+        (lap.condition, item)
+        for lap in protocol.laps
+        for survey in lap.survey
+        if not lap.practice and survey.instrument == instrument.name
+        for item in asked_items(protocol, lap, survey, instrument)
+    )
 
 
 def _counts(given: pd.Series, asked: int, instrument: Instrument) -> dict[str, float | int]:
