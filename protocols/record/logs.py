@@ -1,5 +1,7 @@
 """Logs of a study directory: not part of the record."""
 
+import csv
+import io
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
@@ -71,13 +73,12 @@ def _name(how: str, participant: str) -> str:
 
 def write_timing(folder: Path, participant: str, wall_s: float) -> None:
     """Add how long a session took, in s, to ``logs/timing.csv``."""
-    _append(folder, "timing.csv", f"{participant},{wall_s:.3f}", header="participant,wall_s")
+    _append(folder, "timing.csv", (participant, f"{wall_s:.3f}"), ("participant", "wall_s"))
 
 
 def write_death(folder: Path, participant: str, reason: str) -> None:
     """Add to ``logs/deaths.csv`` that a process died during a session, which is run again."""
-    quoted = reason.replace('"', '""')
-    _append(folder, "deaths.csv", f'{participant},"{quoted}"', header="participant,reason")
+    _append(folder, "deaths.csv", (participant, reason), ("participant", "reason"))
 
 
 def write_warnings(folder: Path, participant: str, warned: Sequence[str]) -> None:
@@ -86,16 +87,21 @@ def write_warnings(folder: Path, participant: str, warned: Sequence[str]) -> Non
         write_log(folder, f"warnings-{participant}.txt", "\n".join(warned) + "\n")
 
 
-def _append(folder: Path, name: str, line: str, header: str) -> None:
+def _append(folder: Path, name: str, row: Sequence[str], header: Sequence[str]) -> None:
     path = folder / LOGS / name
     path.parent.mkdir(exist_ok=True)
+    text = io.StringIO()
+    lines = csv.writer(text, lineterminator="\n")
     with naming(path), path.open("a+b") as stream:
-        stream.write(f"{_before(stream, header)}{line}\n".encode())
+        if stream.seek(0, os.SEEK_END) == 0:
+            lines.writerow(header)
+        elif _is_cut_short(stream):
+            text.write("\n")
+        lines.writerow(row)
+        stream.write(text.getvalue().encode())
 
 
-def _before(stream: BinaryIO, header: str) -> str:
-    """Return what a new line needs before it: the header, or the end of one that was cut short."""
-    if stream.seek(0, os.SEEK_END) == 0:
-        return f"{header}\n"
+def _is_cut_short(stream: BinaryIO) -> bool:
+    """Tell whether a run was killed in the middle of the last line."""
     stream.seek(-1, os.SEEK_END)
-    return "" if stream.read() == b"\n" else "\n"
+    return stream.read() != b"\n"

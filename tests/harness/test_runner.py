@@ -117,7 +117,7 @@ def test_deaths_of_processes_are_logged(make_plan, unlucky, tmp_path):
     assert failed
     deaths = (out / "logs" / "deaths.csv").read_text().splitlines()
     for name in failed:
-        assert deaths.count(f'{name},"its process was killed by SIGKILL"') == CHANCES - 1
+        assert deaths.count(f"{name},its process was killed by SIGKILL") == CHANCES - 1
         assert "SIGKILL" in (out / "logs" / f"died-{name}.txt").read_text()
     assert open_study(out).failed() == failed
 
