@@ -55,6 +55,11 @@ class StudyFrames:
         """The analysed conditions, in the order of their first lap."""
         return tuple(part.condition for part in self.parts)
 
+    @property
+    def synthetic(self) -> bool:
+        """Whether anybody who is analysed is a synthetic participant."""
+        return bool((self.participants["kind"] == "synthetic").any())
+
 
 def study_frames(study: Study) -> StudyFrames:
     """Return the tables of a study, and those who are analysed."""

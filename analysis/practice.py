@@ -54,7 +54,7 @@ def practice_table(frames: StudyFrames, model: Sequence[TestResult]) -> pd.DataF
         The study.
     model
         The contrasts, against the yardstick, as ``lap_time_model`` or ``own_contrasts`` return
-        them.
+        them; those without an interval are left out.
 
     Returns
     -------
@@ -72,7 +72,7 @@ def practice_table(frames: StudyFrames, model: Sequence[TestResult]) -> pd.DataF
         places = frames.laps.groupby("condition")["lap"].mean()
         for contrast in model:
             condition, _, reference = contrast.name.partition(" against ")
-            if contrast.computed:
+            if math.isfinite(contrast.low):  # without an interval there is none to shift
                 apart = float(places[condition] - places[reference])
                 rows += _rows(contrast, condition, reference, apart)
     return pd.DataFrame(rows, columns=columns)

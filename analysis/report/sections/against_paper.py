@@ -15,7 +15,7 @@ def paper_section(results: StudyResults) -> Section:
             "remark says so."
         )
     ]
-    if (results.frames.participants["kind"] == "synthetic").any():
+    if results.frames.synthetic:
         blocks.append(Caution(ASSUMED))
     if results.paper.empty:
         blocks.append(Paragraph("This study has no number that the paper prints."))

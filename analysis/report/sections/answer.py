@@ -46,7 +46,8 @@ def _fact(results: StudyResults, c: PairedComparison) -> Fact:
     if c.difference is None or not c.difference.computed:
         return Fact(question, "cannot be said", f"{_why_not(c)}.")
     gain = -c.difference.estimate
-    answer = f"{number(abs(gain))} s {'faster' if gain > 0 else 'slower'}"
+    direction = "faster" if gain > 0 else "slower"
+    answer = f"{number(abs(gain))} s {direction}" if gain else "no difference"
     wide = by_participant(results.frames, "lap_time_s")
     faster = int((wide[c.condition] < wide[c.reference]).sum())
     detail = f"{faster} of {plural(c.complete, 'participant')} faster; {_p(c)}"
@@ -127,7 +128,7 @@ def _why_not(c: PairedComparison) -> str:
 def _cautions(results: StudyResults) -> list[str]:
     frames = results.frames
     found = []
-    if (frames.participants["kind"] == "synthetic").any():
+    if frames.synthetic:
         found.append(
             "The participants are synthetic. The page shows what the simulation's assumptions "
             "imply; nothing on it is a finding about people. Questionnaire answers follow from "
@@ -137,10 +138,15 @@ def _cautions(results: StudyResults) -> list[str]:
         found.append(
             f"The place of a lap in the session follows from its condition{_but(frames)}: practice "
             "and condition are confounded. A difference between conditions may be practice in "
-            "part, and no test on these data can tell; the section on practice shows how much "
-            "practice it would take."
+            f"part, and no test on these data can tell{_where_shown(results)}."
         )
     return found
+
+
+def _where_shown(results: StudyResults) -> str:
+    if results.practice.empty:
+        return ""
+    return "; the section on practice shows how much practice it would take"
 
 
 def _but(frames: StudyFrames) -> str:

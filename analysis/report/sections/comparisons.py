@@ -38,7 +38,7 @@ def comparison_section(results: StudyResults) -> Section:
         )
         blocks += _table("lap_time_comparisons", caption, others, [_PAIR, *_TEST])
     if results.lap_times:
-        frame = comparison_table(results.lap_times)
+        frame = comparison_table(results.lap_times)[["condition", "reference", "ks_d", "ks_p"]]
         blocks.append(table("kolmogorov_smirnov", _ABOUT_KS, frame, [_PAIR, *_KS]))
     return Section("comparisons", "Comparisons", tuple(blocks))
 

@@ -24,7 +24,7 @@ def survey_section(results: StudyResults) -> Section:
         nothing = Paragraph("Nothing was asked in this study.")
         return Section("questionnaire", "Questionnaire", (nothing,))
     blocks: list[Block] = []
-    if (results.frames.participants["kind"] == "synthetic").any():
+    if results.frames.synthetic:
         blocks.append(Caution(ASSUMED))
     for survey in results.surveys:
         blocks += _instrument(results, survey)

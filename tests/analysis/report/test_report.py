@@ -208,6 +208,8 @@ def test_why_an_interval_is_missing_is_said(make_study):
     page = build_page(analyse(make_study(participants=1)))
     text = render(page, {picture.name: b"" for picture in page.pictures})
     assert "mean difference: one pair: no interval and no t test" in text
+    assert "practice would" not in text
+    assert "the section on practice shows" not in text
 
 
 def test_folded_tables_are_printed(study):
