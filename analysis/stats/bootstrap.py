@@ -15,6 +15,23 @@ FEWEST = 6
 Statistic = Callable[..., NDArray[np.float64]]
 
 
+def why_no_interval(interval: tuple[float, float], n: int) -> tuple[str, ...]:
+    """Return the note that a bootstrap interval is missing, and why; nothing where there is one.
+
+    Examples
+    --------
+    >>> why_no_interval((float("nan"), float("nan")), 5)
+    ('no bootstrap interval of fewer than 6 participants',)
+    >>> why_no_interval((0.2, 0.9), 12)
+    ()
+    """
+    if not any(map(math.isnan, interval)):
+        return ()
+    if n < FEWEST:
+        return (f"no bootstrap interval of fewer than {FEWEST} participants",)
+    return ("no bootstrap interval: leaving a participant out changes nothing",)
+
+
 def bca_interval(
     samples: tuple[NDArray[np.float64], ...],
     statistic: Statistic,

@@ -1,12 +1,13 @@
 """Effect sizes of paired differences, with bootstrap intervals over participants."""
 
+import math
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from analysis.stats.bootstrap import RESAMPLES, bca_interval
+from analysis.stats.bootstrap import FEWEST, RESAMPLES, bca_interval, why_no_interval
 from analysis.stats.result import TestResult
 from analysis.stats.samples import Sample, settled
 
@@ -43,7 +44,8 @@ def cohen_dz(differences: Sample, rng: np.random.Generator, level: float = 0.95)
         high=high,
         level=level,
         n=len(d),
-        method=f"Cohen's d for paired data; {_BOOTSTRAP}",
+        method=_method("Cohen's d for paired data (d_z)", low),
+        notes=why_no_interval((low, high), len(d)),
     )
 
 
@@ -80,11 +82,19 @@ def rank_biserial(differences: Sample, rng: np.random.Generator, level: float = 
         high=high,
         level=level,
         n=len(d),
-        method=f"matched-pairs rank-biserial correlation; {_BOOTSTRAP}",
-        notes=("all differences have one sign: no bootstrap interval",)
-        if (d >= 0).all() or (d <= 0).all()
-        else (),
+        method=_method("matched-pairs rank-biserial correlation", low),
+        notes=_about((low, high), d),
     )
+
+
+def _method(effect: str, low: float) -> str:
+    return f"{effect}; {_BOOTSTRAP}" if math.isfinite(low) else effect
+
+
+def _about(interval: tuple[float, float], d: NDArray[np.float64]) -> tuple[str, ...]:
+    if len(d) >= FEWEST and ((d >= 0).all() or (d <= 0).all()):
+        return ("all differences have one sign: no bootstrap interval",)
+    return why_no_interval(interval, len(d))
 
 
 def _dz(d: NDArray[np.float64], axis: int = -1) -> Any:

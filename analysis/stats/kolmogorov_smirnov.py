@@ -44,7 +44,10 @@ def two_sample_ks(x: Sample, y: Sample, *, same_people: bool) -> TestResult:
     d = _distance(a, b)
     exact = len(a) * len(b) < EXACT_BELOW
     p = _exact_p(a, b, d) if exact else asymptotic_p(d, len(a), len(b))
-    notes = [f"p with Stephens' correction: {stephens_p(d, len(a), len(b)):.4f}"]
+    notes = [
+        f"samples of {len(a)} and {len(b)}",
+        f"p with Stephens' correction: {stephens_p(d, len(a), len(b)):.4f}",
+    ]
     if same_people:
         notes.append("descriptive only: both samples come from the same people")
     return TestResult(
@@ -55,8 +58,7 @@ def two_sample_ks(x: Sample, y: Sample, *, same_people: bool) -> TestResult:
         statistic_name="D",
         p=p,
         n=len(a) + len(b),
-        method=f"two-sample Kolmogorov-Smirnov ({len(a)} against {len(b)}), two-sided, "
-        f"{'exact' if exact else 'asymptotic'}",
+        method=f"two-sample Kolmogorov-Smirnov, two-sided, {'exact' if exact else 'asymptotic'}",
         notes=tuple(notes),
     )
 

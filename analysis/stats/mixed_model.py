@@ -10,6 +10,7 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy import stats
 from statsmodels.regression.mixed_linear_model import MixedLM
+from statsmodels.tools.sm_exceptions import ConvergenceWarning
 
 from analysis.stats.permutation import sign_flip
 from analysis.stats.result import TestResult
@@ -124,17 +125,25 @@ def lap_time_model(
     if not design.contrasts or reference not in set(timed["condition"]):
         return ()
     n = int(timed["participant"].nunique())
+    used = _laps_used(laps, timed, n)
     df = len(timed) - n - (design.matrix.shape[1] - 1)
     if n < 2 or df < 1:
-        why = f"{len(timed)} laps of {n} participants are too few"
+        why = f"too few: {used}"
         return tuple(_named(TestResult.missing("", n, why), c, reference) for c in design.contrasts)
     fit, remarks = _fit(timed, design)
+    remarks = (used, *remarks)
     if fit is None:
         return tuple(_fallback(timed, c, reference, rng, remarks) for c in design.contrasts)
     return tuple(
         _contrast(fit, design, i, reference, df=df, n=n, level=level, remarks=remarks)
         for i in range(len(design.contrasts))
     )
+
+
+def _laps_used(laps: pd.DataFrame, timed: pd.DataFrame, n: int) -> str:
+    left = len(laps) - len(timed)
+    without = f"; {left} without a time left out" if left else ""
+    return f"{len(timed)} laps of {n} participants{without}"
 
 
 def _fit(laps: pd.DataFrame, design: Design) -> tuple[Any, tuple[str, ...]]:
@@ -149,7 +158,10 @@ def _fit(laps: pd.DataFrame, design: Design) -> tuple[Any, tuple[str, ...]]:
             errors = np.asarray(fit.bse_fe)
     except (np.linalg.LinAlgError, ValueError) as error:
         return None, (f"the mixed model failed: {error}",)
-    said = tuple(dict.fromkeys(str(w.message).partition("\n")[0] for w in caught))
+    # Of warnings only the fit's own: numpy's on the way are its search, and its end is checked.
+    of_the_fit = (w for w in caught if issubclass(w.category, ConvergenceWarning))
+    texts = dict.fromkeys(str(w.message).partition("\n")[0].rstrip(".") for w in of_the_fit)
+    said = tuple(f"statsmodels: {text}" for text in texts)
     effects = np.asarray(fit.fe_params)[1:]
     if not fit.converged:
         return None, ("the mixed model did not converge", *said)

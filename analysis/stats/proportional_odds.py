@@ -6,12 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from analysis.stats.bootstrap import FEWEST
+from analysis.stats.bootstrap import FEWEST, why_no_interval
 from analysis.stats.result import TestResult
 from analysis.stats.samples import Sample, present_pairs
 
 RESAMPLES = 999
 _NAME = "proportional odds"
+_METHOD = "proportional-odds regression (logit), maximum likelihood"
+_BOOTSTRAP = f"percentile bootstrap over participants, {RESAMPLES} resamples"
 _STEPS = 60
 _FAR = 12.0
 """A log odds ratio beyond this is taken for infinite: the answers are separated."""
@@ -70,9 +72,9 @@ def proportional_odds(
         high=high,
         level=level,
         n=len(a),
-        method="proportional-odds regression (logit), maximum likelihood; percentile bootstrap "
-        f"over participants, {RESAMPLES} resamples",
+        method=_METHOD if math.isnan(low) else f"{_METHOD}; {_BOOTSTRAP}",
         checks=("proportional odds are assumed, not tested",),
+        notes=why_no_interval((low, high), len(a)),
     )
 
 

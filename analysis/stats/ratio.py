@@ -48,7 +48,7 @@ def ratio_of_means(reference: Sample, condition: Sample, level: float = 0.95) ->
         high=high,
         level=level,
         n=len(a),
-        method="ratio of means of complete pairs; Fieller interval",
+        method=_method("ratio of means of complete pairs", "Fieller interval", low),
     )
 
 
@@ -81,8 +81,12 @@ def mean_of_ratios(reference: Sample, condition: Sample, level: float = 0.95) ->
         high=about.high,
         level=level,
         n=len(a),
-        method="mean of ratios of complete pairs; t interval",
+        method=_method("mean of ratios of complete pairs", "t interval", about.low),
     )
+
+
+def _method(estimate: str, interval: str, low: float) -> str:
+    return f"{estimate}; {interval}" if math.isfinite(low) else estimate
 
 
 def _fieller(a: NDArray[np.float64], b: NDArray[np.float64], level: float) -> tuple[float, float]:

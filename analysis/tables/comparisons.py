@@ -83,8 +83,12 @@ def _odds_ratio(result: TestResult | None) -> dict[str, float]:
 
 
 def _remarks(c: PairedComparison) -> list[str]:
+    """Return what is to be known of a row, once, and of which quantities it is said."""
     parts = [c.signed_rank, c.rank_biserial, c.dz, c.difference, c.equivalence, c.odds]
     results = [r for r in parts if r is not None]
-    said = [(r.name, r.why_not) for r in results if r.why_not is not None]
-    said += [(r.name, note) for r in results if r is not c.signed_rank for note in r.notes]
-    return [*(f"{name}: {text}" for name, text in said), *c.signed_rank.notes]
+    said = [(r.why_not, r.name) for r in results if r.why_not is not None]
+    said += [(note, r.name) for r in results if r is not c.signed_rank for note in r.notes]
+    of: dict[str, list[str]] = {}
+    for text, name in said:
+        of.setdefault(text, []).append(name)
+    return [*(f"{', '.join(names)}: {text}" for text, names in of.items()), *c.signed_rank.notes]

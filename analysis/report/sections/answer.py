@@ -24,7 +24,7 @@ def answer_section(results: StudyResults) -> Section:
         blocks.append(Facts(tuple(_fact(results, c) for c in chosen)))
         blocks += [Paragraph(_sentence(c)) for c in chosen]
     else:
-        blocks.append(Paragraph("The study has no two conditions whose lap times can be compared."))
+        blocks.append(Paragraph(_nothing_to_say(results)))
     blocks += [Caution(text) for text in _cautions(results)]
     if chosen:
         blocks.append(_picture(chosen))
@@ -39,6 +39,12 @@ def _chosen(results: StudyResults) -> tuple[PairedComparison, ...]:
         return tuple(sorted(declared, key=lambda c: c.condition not in helped))
     reference = yardstick(results.frames.parts)
     return tuple(c for c in results.lap_times if c.condition in helped and c.reference == reference)
+
+
+def _nothing_to_say(results: StudyResults) -> str:
+    if any(part.role in ("demonstrator", "model") for part in results.frames.parts):
+        return "The study has no condition without help to compare the assisted laps with."
+    return "In no condition of this study could anybody help, and it declares no comparison."
 
 
 def _fact(results: StudyResults, c: PairedComparison) -> Fact:

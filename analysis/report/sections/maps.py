@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from analysis.figures.assistance_map import assistance_map
 from analysis.figures.section_shares import section_figure
+from analysis.maps import BANDWIDTH
 from analysis.report.blocks import Block, Paragraph, Picture, Section, Shown, table
 from analysis.report.words import count, is_p, number, percent, plural
 from analysis.results import StudyResults
@@ -26,8 +27,8 @@ def map_section(results: StudyResults) -> Section:
             f"Assisted share by section. {_most(results)}",
             section_figure(sections, frames.parts),
         ),
-        table("section_shares", "Assisted steps by course section, pooled over laps.", sections,
-              _COLUMNS),
+        table("section_shares", "Assisted steps by course section, pooled over the steps of all "
+              "laps, unfinished ones too.", sections, _COLUMNS),
     ]  # fmt: skip
     return Section("assistance", "Where assistance was given", tuple(blocks))
 
@@ -46,7 +47,8 @@ def _map(results: StudyResults, helped: Sequence[str]) -> tuple[Block, ...]:
             "assistance_map",
             "Driven paths (grey) and smoothed density of the steps in which assistance counted, "
             f"on one colour scale; each density integrates to 1 ({n}; the paper's Figure 7). "
-            "Gaussian kernel, standard deviation 0.25 m. S start, R1 and R2 gates, F finish.",
+            "Steps of unfinished laps count too. Gaussian kernel, standard deviation "
+            f"{BANDWIDTH:g} m. S start, R1 and R2 gates, F finish.",
             f"Floor plans with driven paths and where assistance was given. {_most(results)}",
             assistance_map(steps, results.frames.study.course, helped),
         ),

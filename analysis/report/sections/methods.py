@@ -1,83 +1,210 @@
-"""Methods, as text for a paper."""
+"""Methods, as text for a paper: what this study did, and nothing that it did not."""
 
+import math
+from collections.abc import Iterable, Iterator
+
+from analysis.comparisons import PairedComparison
+from analysis.maps import BANDWIDTH, CELL
+from analysis.outcomes import UNITS
 from analysis.report.blocks import Paragraph, Section
 from analysis.report.words import plural
-from analysis.results import StudyResults
-from analysis.stats.bootstrap import RESAMPLES
+from analysis.results import StudyResults, SurveyResults
+from analysis.roles import yardstick
+from analysis.stats.result import TestResult
 from analysis.versions import Recording, analysis_versions, recording_versions
+from protocols.declared import Comparison
 
 
 def methods_section(results: StudyResults) -> Section:
-    """Return text that can be pasted into a paper."""
-    return Section(
-        "methods",
-        "Methods",
-        (
-            Paragraph(_design(results)),
-            Paragraph(_tests(results)),
-            Paragraph(_models(results)),
-            Paragraph(_maps_and_model()),
-            Paragraph(f"Analysis: {_listed(analysis_versions())}."),
-            *(Paragraph(_recorded(r)) for r in recording_versions(results.frames.study)),
-        ),
-    )
+    """Return text that can be pasted into a paper; a sentence is there if what it says was done."""
+    parts = (_design, _declared, _comparisons, _models, _questionnaires, _maps, _model_quality)
+    texts = [" ".join(part(results)) for part in parts]
+    texts.append(f"Analysis: {_listed(analysis_versions())}.")
+    texts += [_recorded(r) for r in recording_versions(results.frames.study)]
+    return Section("methods", "Methods", tuple(Paragraph(text) for text in texts if text))
 
 
-def _design(results: StudyResults) -> str:
-    protocol, flow = results.frames.study.protocol, results.flow
+def _design(results: StudyResults) -> Iterator[str]:
+    study, flow = results.frames.study, results.flow
+    protocol = study.protocol
     laps = ", ".join(
         f"{lap.condition}{' (practice)' if lap.practice else ''}" for lap in protocol.laps
     )
-    seed = results.frames.study.seed
-    return (
-        f"Within-subject design; protocol {protocol.name!r} on course "
-        f"{results.frames.study.course.name!r}"
-        f"{'' if seed is None else f', seed {seed}'}. Laps in order: {laps}. Practice laps are not "
-        f"analysed. Of {plural(flow.planned, 'planned participant')}, {flow.recorded} were "
-        f"recorded and {flow.analysed} analysed."
+    seed = "" if study.seed is None else f", seed {study.seed}"
+    course = study.course.name
+    yield f"Within-subject design; protocol {protocol.name!r} on course {course!r}{seed}."
+    yield f"Laps as planned: {laps}."
+    if any(lap.practice for lap in protocol.laps):
+        yield "Practice laps were not analysed."
+    yield (
+        f"Participants: {flow.planned} planned, {flow.recorded} recorded, {flow.analysed} analysed."
     )
+    if flow.refused:
+        yield f"Without consent, and not analysed: {flow.refused}."
+    yield from _exclusion(results)
+    if flow.laps[["time_limit", "withdrew", "unfinished_otherwise"]].to_numpy().any():
+        yield (
+            "Only finished laps have a lap time and measures of a whole lap; other outcomes of the "
+            "lap table, maps, shares by section and the model's calibration include the steps of "
+            "unfinished laps."
+        )
 
 
-def _tests(results: StudyResults) -> str:
-    families = {c.family for c in results.declared if c.kind == "confirmatory"}
-    return (
-        "Conditions were compared within participants; where a condition was driven more than "
-        "once, a participant's laps were averaged. Wilcoxon signed-rank tests are two-sided and "
-        "exact given ties (mid-ranks; zeros after Pratt), a normal approximation above 200 "
-        "non-zero pairs; the estimate is the Hodges-Lehmann pseudomedian. Effect sizes are the "
-        "matched-pairs rank-biserial correlation and d_z, with BCa bootstrap intervals over "
-        f"participants ({RESAMPLES:,} resamples); mean differences have t intervals. Confirmatory "
-        f"p-values are corrected after Holm within their family ({len(families)} declared); "
-        "exploratory ones are not corrected. Equivalence is tested with two one-sided t-tests "
-        "(TOST) within declared margins. Two-sample Kolmogorov-Smirnov tests are exact for small "
-        "samples and descriptive, since the samples come from the same people. Speedups are given "
-        "as ratio of means (Fieller interval) and as mean of ratios (t interval) over complete "
-        "pairs. A pair with a missing value is left out of its comparison and counted. Lap times "
-        "exist for finished laps only; other outcomes of the lap table include unfinished laps, "
-        "measures from steps do not."
+def _exclusion(results: StudyResults) -> Iterator[str]:
+    rules, excluded = results.frames.study.protocol.exclusion, results.flow.excluded
+    said = []
+    if rules.min_completed_laps is not None:
+        said.append(f"completed fewer than {plural(rules.min_completed_laps, 'lap')}")
+    if rules.max_collisions is not None:
+        said.append(f"collided more than {plural(rules.max_collisions, 'time')}")
+    if said:
+        yield (
+            f"By the protocol's rules, whoever {' or '.join(said)} (practice apart) was excluded "
+            f"from every analysis: {plural(sum(excluded.values()), 'participant')}."
+        )
+    elif excluded:
+        yield f"Excluded, by no rule of the protocol: {sum(excluded.values())}."
+    else:
+        yield "Nobody was excluded by a rule."
+
+
+def _declared(results: StudyResults) -> Iterator[str]:
+    declared = results.frames.study.protocol.analyses
+    if not declared:
+        yield "The protocol declared no comparison; all tests are exploratory."
+        return
+    yield f"Declared by the protocol: {'; '.join(map(_declaration, declared))}."
+    families = {c.family for c in results.declared if math.isfinite(c.p_holm)}
+    if families:
+        yield (
+            "Confirmatory p-values were corrected after Holm within their family "
+            f"({plural(len(families), 'family', 'families')}); all others are not corrected."
+        )
+
+
+def _declaration(c: Comparison) -> str:
+    kind = f"confirmatory, family {c.family!r}" if c.kind == "confirmatory" else "exploratory"
+    margin = ""
+    if c.equivalence_margin is not None:
+        within = f"±{c.equivalence_margin:g} {UNITS.get(c.outcome, '')}"
+        margin = f", equivalence within {within.rstrip()}"
+    return f"{c.name} ({c.outcome}, {c.condition} − {c.reference}; {kind}{margin})"
+
+
+def _comparisons(results: StudyResults) -> Iterator[str]:
+    pairs = _pairs(results)
+    tests = _used(c.signed_rank for c in pairs)
+    if not tests:
+        yield "No test between two conditions could be computed."
+        return
+    yield (
+        f"Conditions were compared within participants: {tests}; the estimate is the "
+        "Hodges-Lehmann pseudomedian."
     )
+    laps = results.frames.laps
+    if laps.duplicated(["participant", "condition"]).any():
+        yield "Where a condition was driven more than once, a participant's laps were averaged."
+    if any(c.incomplete for c in pairs):
+        yield "A pair with a missing value was left out of its comparison and counted."
+    if effects := _used(r for c in pairs for r in (c.rank_biserial, c.dz)):
+        yield f"Effect sizes: {effects}."
+    if any(c.difference is not None and math.isfinite(c.difference.low) for c in pairs):
+        yield "Mean differences have paired t intervals."
+    if _used(c.equivalence for c in pairs):
+        yield (
+            "Equivalence of means was tested by two one-sided paired t-tests (TOST), with 90% "
+            "intervals, within the margins declared."
+        )
+    if ratios := _used(r for c in pairs for r in (c.ratio_of_means, c.mean_of_ratios)):
+        yield f"Speedups: {ratios}."
+    if distributions := _used(c.ks for c in pairs):
+        yield (
+            f"Distributions: {distributions}; descriptive, since the samples come from "
+            "the same people."
+        )
 
 
-def _models(results: StudyResults) -> str:
-    used = list(dict.fromkeys(found.method for found in results.model if found.method))
-    return (
-        f"Log lap times: {'; '.join(used) or 'no mixed model could be fitted'}. The fit was "
-        "checked for convergence and for effects of exactly zero; where either failed, a "
-        "permutation test over participants took its place. Items of questionnaires were also "
-        "analysed by proportional-odds regression with a percentile bootstrap over participants "
-        "(999 resamples); composite scores are given with Cronbach's alpha."
-    )
+def _models(results: StudyResults) -> Iterator[str]:
+    if not (used := _used(results.model)):
+        return
+    yield f"Log lap times, every condition against {yardstick(results.frames.parts)}: {used}."
+    if any(found.checks for found in results.model):
+        yield "The fit was checked for convergence and for effects of exactly zero."
+    else:
+        yield "It took the place of a mixed model that could not be fitted."
+    if _used(results.contrasts):
+        yield (
+            "The same contrasts were computed from each participant's own laps, each with its own "
+            "standard deviation (paired t on log lap times)."
+        )
+    if not results.practice.empty:
+        yield (
+            "Since the order of laps follows from their conditions, a sensitivity table shows what "
+            "is left of each contrast if practice saved a given share of the time per lap."
+        )
 
 
-def _maps_and_model() -> str:
-    return (
-        "Assistance maps: positions of steps in which an assistant's command counted, on a 0.1 m "
-        "grid, smoothed with a Gaussian kernel of 0.25 m standard deviation and normalised to "
-        "integrate to 1; two maps are compared by their overlap coefficient, tested by exchanging "
-        "the two sources within participants. The model's p(h = 1 | x) was recorded before it "
-        "learnt from a step and is compared with the demonstrator's signal, or in laps that the "
-        "demonstrator did not drive with the signal of a shadow demonstrator that touched nothing."
-    )
+def _questionnaires(results: StudyResults) -> Iterator[str]:
+    for survey in results.surveys:
+        instrument = survey.instrument
+        if not survey.table["answered"].any():
+            continue
+        yield (
+            f"{instrument.title}: {plural(len(instrument.items), 'item')} on {instrument.points} "
+            "points."
+        )
+        if _used(c.signed_rank for c in survey.comparisons):
+            odds = _used(c.odds for c in survey.comparisons)
+            yield "Items were compared as above" + (f", and by {odds}." if odds else ".")
+        yield from _scores(survey)
+    if results.frames.synthetic and any(s.table["answered"].any() for s in results.surveys):
+        yield "Answers of synthetic participants were drawn from a model with assumed loadings."
+
+
+def _scores(survey: SurveyResults) -> Iterator[str]:
+    if survey.scales["n"].any():
+        text = "Composite scores are means of a subscale's items over complete answer sheets"
+        with_alpha = survey.scales["alpha"].notna().any()
+        yield f"{text}, with Cronbach's alpha (Feldt interval)." if with_alpha else f"{text}."
+
+
+def _maps(results: StudyResults) -> Iterator[str]:
+    steps = results.records.steps
+    helpers = [p.condition for p in results.frames.parts if p.role in ("demonstrator", "model")]
+    placed = steps[["x_m", "y_m", "helped"]].notna().all(axis=1)
+    if (placed & steps["condition"].isin(helpers)).any():
+        yield (
+            "Assistance maps: positions of steps in which an assistant's command counted, on a "
+            f"{CELL:g} m grid, smoothed with a Gaussian kernel of {BANDWIDTH:g} m standard "
+            "deviation and normalised to integrate to 1."
+        )
+    if used := _used([results.overlap]):
+        yield f"Two maps were compared by their overlap coefficient: {used}."
+
+
+def _model_quality(results: StudyResults) -> Iterator[str]:
+    taught = {part.condition for part in results.frames.parts if part.taught}
+    if results.reliability["condition"].isin(taught).any():
+        yield (
+            "The model's p(h = 1 | x) was recorded before it learnt from a step and is compared "
+            "with the demonstrator's signal, or in laps that the demonstrator did not drive with "
+            "the signal of a shadow demonstrator that touched nothing."
+        )
+
+
+def _pairs(results: StudyResults) -> tuple[PairedComparison, ...]:
+    items = (c for survey in results.surveys for c in survey.comparisons)
+    return (*results.declared, *results.lap_times, *items)
+
+
+def _used(found: Iterable[TestResult | None]) -> str:
+    """Return the methods of what could be computed, each once; nothing where nothing could.
+
+    A method that is the beginning of another one is that one without its interval: not repeated.
+    """
+    methods = dict.fromkeys(f.method for f in found if f is not None and f.computed and f.method)
+    whole = [m for m in methods if not any(o != m and o.startswith(m) for o in methods)]
+    return "; ".join(method.replace("; ", ", ") for method in whole)
 
 
 def _listed(versions: dict[str, str]) -> str:

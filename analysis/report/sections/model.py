@@ -11,12 +11,12 @@ def model_section(results: StudyResults) -> Section:
     taught = tuple(part for part in results.frames.parts if part.taught)
     conditions = [part.condition for part in taught]
     measures = results.records.measures
-    measures = measures[measures["condition"].isin(conditions)]
+    measures = measures[measures["condition"].isin(conditions) & measures["completed"]]
     reliability = results.reliability
     reliability = reliability[reliability["condition"].isin(conditions)]
     auc = measures.groupby("condition", sort=False)["when_auc"].agg(["count", "median"])
     said = "; ".join(
-        f"{condition} median AUC {number(row['median'], 3)} over {int(row['count'])} laps"
+        f"{condition} median AUC {number(row['median'], 3)} over {int(row['count'])} finished laps"
         for condition, row in auc.iterrows()
         if row["count"]
     )
@@ -27,14 +27,15 @@ def model_section(results: StudyResults) -> Section:
             Picture(
                 "model_quality",
                 "Left: area under the ROC curve of p(h = 1 | x) against what the demonstrator did "
-                "or, as a shadow, would have done, lap by lap (bar: median; dotted: chance). "
-                "Right: reliability, steps pooled in tenths of p. Predictions were recorded before "
+                "or, as a shadow, would have done, of every finished lap (bar: median; dotted: "
+                "chance). Right: reliability, steps of all laps, unfinished ones too, pooled in "
+                "tenths of p. Predictions were recorded before "
                 "the model learnt from a step: they are out of sample. Laps before the first "
                 "demonstration are left out: there the model knows nothing and says so.",
                 f"Model quality: {said or 'nothing to compare'}.",
                 model_figure(measures, reliability, taught),
             ),
-            table("reliability", "Reliability of p(h = 1 | x), pooled over laps.",
+            table("reliability", "Reliability of p(h = 1 | x), pooled over the steps of all laps.",
                   reliability, _COLUMNS, folded=True),
         ),
     )  # fmt: skip

@@ -10,6 +10,7 @@ import pandas as pd
 from analysis.report.blocks import Block, Paragraph, Remarks, Section, Shown, table
 from analysis.report.words import count, interval, number, p_value, percent, with_interval
 from analysis.results import StudyResults
+from analysis.roles import yardstick
 from analysis.stats.result import TestResult
 
 
@@ -20,17 +21,27 @@ def practice_section(results: StudyResults) -> Section:
         caption = (
             "Exploratory: log lap time ~ condition + (1 | participant). Ratios of (geometric mean) "
             "lap times, condition / reference: below 1 the condition is faster. The model takes "
-            "all contrasts to spread alike; the last two columns, from each participant's own "
+            "all contrasts to spread alike; the last three columns, from each participant's own "
             "contrast, do not, and are the ones to read where the standard deviations differ."
         )
         frame = _contrasts(results.model, results.contrasts)
         blocks.append(table("mixed_model", caption, frame, _MODEL))
         blocks.append(Remarks(_about((*results.model, *results.contrasts))))
     else:
-        blocks.append(Paragraph("There are no two conditions to model."))
+        blocks.append(Paragraph(f"There is no mixed model: {_why_no_model(results)}."))
     if not results.practice.empty:
         blocks += _practice(results.practice)
     return Section("practice", "Mixed model and practice", tuple(blocks))
+
+
+def _why_no_model(results: StudyResults) -> str:
+    reference = yardstick(results.frames.parts)
+    if reference is None:
+        return "the study has no condition without help that the others could be set against"
+    timed = set(results.frames.laps.dropna(subset=["lap_time_s"])["condition"])
+    if reference not in timed:
+        return f"no lap of {reference}, which the others are set against, has a time"
+    return f"no lap of another condition than {reference} has a time"
 
 
 def _contrasts(model: Sequence[TestResult], own: Sequence[TestResult]) -> pd.DataFrame:
@@ -56,8 +67,9 @@ def _contrasts(model: Sequence[TestResult], own: Sequence[TestResult]) -> pd.Dat
 
 
 def _own(found: TestResult | None) -> dict[str, float]:
-    low, high, p = (math.nan,) * 3 if found is None else (found.low, found.high, found.p)
-    return {"own_ratio_low": math.exp(low), "own_ratio_high": math.exp(high), "own_p": p}
+    own = TestResult.missing("", 0, "no pair") if found is None else found
+    low, high = math.exp(own.low), math.exp(own.high)
+    return {"own_n": own.n, "own_ratio_low": low, "own_ratio_high": high, "own_p": own.p}
 
 
 def _about(model: Sequence[TestResult]) -> tuple[str, ...]:
@@ -130,6 +142,7 @@ _MODEL = [
     Shown("95%", lambda r: interval(r["ratio_low"], r["ratio_high"], 3)),
     Shown("t", lambda r: number(r["t"], 2)),
     Shown("p", lambda r: p_value(r["p"])),
+    Shown("pairs", lambda r: count(r["own_n"])),
     Shown("95%, own spread", lambda r: interval(r["own_ratio_low"], r["own_ratio_high"], 3)),
     Shown("p, own spread", lambda r: p_value(r["own_p"])),
 ]

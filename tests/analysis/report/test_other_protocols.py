@@ -90,4 +90,5 @@ def test_one_condition_alone_has_nothing_to_compare(page):
     """The page is written, and says that there is nothing to compare."""
     results, text = page("human", "free")
     assert results.lap_times == ()
-    assert "no two conditions" in text
+    assert "it declares no comparison" in text
+    assert "no lap of another condition than free has a time" in text

@@ -114,6 +114,16 @@ def test_when_all_differences_agree_in_sign():
 
 
 @pytest.mark.parametrize("test", [cohen_dz, rank_biserial])
+def test_few_participants_have_an_effect_without_interval_and_a_note(test):
+    """Five people: a number, no interval, and why; the method speaks of no bootstrap."""
+    found = test([1.0, 2.0, -1.0, 3.0, 0.5], rng())
+    assert math.isfinite(found.estimate)
+    assert math.isnan(found.low)
+    assert found.notes == ("no bootstrap interval of fewer than 6 participants",)
+    assert "bootstrap" not in found.method
+
+
+@pytest.mark.parametrize("test", [cohen_dz, rank_biserial])
 def test_effects_that_cannot_be_computed_say_why(test):
     """Nothing, or no difference."""
     assert test([], rng()).why_not

@@ -87,7 +87,7 @@ def test_a_failed_fit_falls_back_on_a_permutation_test(monkeypatch, defect):
         expected = sign_flip(wide[condition] - wide["limited"], np.random.default_rng(0))
         assert found.p == pytest.approx(expected.p)
         assert "sign flips" in found.method
-        assert "the mixed model" in found.notes[0]
+        assert "the mixed model" in found.notes[1]
 
 
 def test_too_few_laps_say_why():
@@ -104,3 +104,4 @@ def test_unfinished_laps_are_left_out():
     found = lap_time_model(frame, "limited", np.random.default_rng(0))
     assert found[0].n == 12
     assert "t on 31 df" in found[0].method
+    assert f"{len(frame) - 2} laps of 12 participants; 2 without a time left out" in found[0].notes
