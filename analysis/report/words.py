@@ -25,6 +25,17 @@ def count(value: float) -> str:
     return number(value, 0)
 
 
+def rank_sum(value: float) -> str:
+    """Return a sum of mid-ranks, which is whole or ends in a half.
+
+    Examples
+    --------
+    >>> rank_sum(78.0), rank_sum(60970.5), rank_sum(float("nan"))
+    ('78', '60970.5', '–')
+    """
+    return number(value, 0 if value == round(value, 0) else 1)
+
+
 def percent(value: float, digits: int = 0) -> str:
     """Return a percentage that is given in percent."""
     return NOTHING if not math.isfinite(value) else f"{number(value, digits)}%"

@@ -6,7 +6,7 @@ from typing import Any
 
 from analysis.comparisons import PairedComparison
 from analysis.report.blocks import Block, Paragraph, Remarks, Section, Shown, table
-from analysis.report.words import count, interval, number, p_value, with_interval
+from analysis.report.words import count, interval, number, p_value, rank_sum, with_interval
 from analysis.results import StudyResults
 from analysis.tables.comparisons import comparison_table
 
@@ -76,14 +76,10 @@ def _table(
 
 def _with_interval(title: str, name: str, digits: int) -> Shown:
     def cell(row: dict[str, Any]) -> str:
-        return with_interval(row[name], row[f"{name}_low"], row[f"{name}_high"], digits)
+        shown = with_interval(row[name], row[f"{name}_low"], row[f"{name}_high"], digits)
+        return shown.replace(" [", "\n[")  # below it: four intervals beside each other are wide
 
     return Shown(title, cell)
-
-
-def _pairs(row: dict[str, Any]) -> str:
-    missing = row["n_missing"]
-    return f"{row['n_pairs']} ({missing} missing)" if missing else count(row["n_pairs"])
 
 
 def _pair(row: dict[str, Any]) -> str:
@@ -93,8 +89,9 @@ def _pair(row: dict[str, Any]) -> str:
 _NAMED = Shown("condition − reference", lambda r: f"{r['name']}: {_pair(r)}", words=True)
 _PAIR = Shown("condition − reference", _pair, words=True)
 _TEST = [
-    Shown("pairs", _pairs),
-    Shown("T+", lambda r: number(r["wilcoxon_statistic"])),
+    Shown("pairs", lambda r: count(r["n_pairs"])),
+    Shown("missing", lambda r: count(r["n_missing"])),
+    Shown("T+", lambda r: rank_sum(r["wilcoxon_statistic"])),
     Shown("p", lambda r: p_value(r["wilcoxon_p"])),
 ]
 _HOLM = Shown("p (Holm)", lambda r: p_value(r["wilcoxon_p_holm"]))

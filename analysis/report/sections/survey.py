@@ -7,7 +7,7 @@ import pandas as pd
 from analysis.comparisons import PairedComparison
 from analysis.figures.likert import likert_figure
 from analysis.report.blocks import Block, Caution, Paragraph, Picture, Section, Shown, table
-from analysis.report.words import NOTHING, count, interval, number, p_value, percent
+from analysis.report.words import NOTHING, count, interval, number, p_value, percent, rank_sum
 from analysis.results import StudyResults, SurveyResults
 from analysis.roles import Part, first
 from analysis.tables.comparisons import comparison_table
@@ -61,8 +61,8 @@ def _instrument(results: StudyResults, survey: SurveyResults) -> list[Block]:
         blocks.append(
             table(f"items_{instrument.name}", f"Exploratory: {helpers[0].condition} (condition) "
                   f"against {helpers[0].reference} (reference), item by item. "
-                  "Wilcoxon signed-rank, exact, mid-ranks, zeros after Pratt; p not corrected. "
-                  "Odds of a higher answer: ordinal regression, bootstrap over participants.",
+                  "Wilcoxon signed-rank, mid-ranks, zeros after Pratt; p not corrected. "
+                  "Odds of a higher answer: ordinal regression.",
                   _with_agreement(helpers, answers), [_TESTS[0], *_AGREEMENT, *_TESTS[3:]])
         )  # fmt: skip
     others = [c for c in survey.comparisons if c not in helpers]
@@ -136,7 +136,7 @@ _TESTS = [
     Shown("reference", lambda r: r["reference"], words=True),
     Shown("pairs", lambda r: count(r["n_pairs"])),
     Shown("missing", lambda r: count(r["n_missing"])),
-    Shown("T+", lambda r: number(r["wilcoxon_statistic"])),
+    Shown("T+", lambda r: rank_sum(r["wilcoxon_statistic"])),
     Shown("p", lambda r: p_value(r["wilcoxon_p"])),
     Shown("rank-biserial", lambda r: number(r["rank_biserial"], 2)),
     Shown("95%", lambda r: interval(r["rank_biserial_low"], r["rank_biserial_high"], 2)),
