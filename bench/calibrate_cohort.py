@@ -1,7 +1,7 @@
 """Calibrate the synthetic cohort on four published figures, and check it.
 
     python bench/calibrate_cohort.py                  solve the grid, about an hour
-    python bench/calibrate_cohort.py --check 5000     drive the shipped cohort's laps and compare
+    python bench/calibrate_cohort.py --check 5050     drive the shipped cohort's laps and compare
     python bench/calibrate_cohort.py --keep DIR       keep driven laps, go on after a break
 
 Baseline and limited laps of people of every kind teach an emulator what lap time follows from

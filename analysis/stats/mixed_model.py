@@ -135,7 +135,16 @@ def lap_time_model(
     if fit is None:
         return tuple(_fallback(timed, c, reference, rng, remarks) for c in design.contrasts)
     return tuple(
-        _contrast(fit, design, i, reference, df=df, n=n, level=level, remarks=remarks)
+        _contrast(
+            fit,
+            design,
+            i,
+            reference,
+            df=df,
+            n=n,
+            level=level,
+            remarks=(*remarks, *_resting_on(timed, design.contrasts[i], reference, n)),
+        )
         for i in range(len(design.contrasts))
     )
 
@@ -144,6 +153,13 @@ def _laps_used(laps: pd.DataFrame, timed: pd.DataFrame, n: int) -> str:
     left = len(laps) - len(timed)
     without = f"; {left} without a time left out" if left else ""
     return f"{len(timed)} laps of {n} participants{without}"
+
+
+def _resting_on(timed: pd.DataFrame, condition: str, reference: str, n: int) -> tuple[str, ...]:
+    """Tell that not everybody drove both laps of a contrast: then some came from one of them."""
+    drove = (set(timed.loc[timed["condition"] == c, "participant"]) for c in (condition, reference))
+    both = len(set.intersection(*drove))
+    return (f"{condition} against {reference}: {both} of {n} participants have both",) * (both < n)
 
 
 def _fit(laps: pd.DataFrame, design: Design) -> tuple[Any, tuple[str, ...]]:

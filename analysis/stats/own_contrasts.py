@@ -60,7 +60,7 @@ def _contrast(wide: pd.DataFrame, condition: str, reference: str, level: float) 
         found,
         name=f"{condition} against {reference}",
         quantity="log of the ratio of lap times, condition / reference",
-        checks=(f"{condition}: standard deviation of the contrast {spread:.3g} (log s)",)
+        checks=(f"standard deviation of the contrast {spread:.3g} (log s)",)
         if np.isfinite(spread)
         else (),
     )

@@ -59,13 +59,11 @@ def _exclusion(results: StudyResults) -> Iterator[str]:
         said.append(f"collided more than {plural(rules.max_collisions, 'time')}")
     if said:
         yield (
-            f"By the protocol's rules, whoever {' or '.join(said)} (practice apart) was excluded "
-            f"from every analysis: {plural(sum(excluded.values()), 'participant')}."
+            f"The protocol excludes from every analysis whoever {' or '.join(said)} (practice "
+            "apart)."
         )
-    elif excluded:
-        yield f"Excluded, by no rule of the protocol: {sum(excluded.values())}."
-    else:
-        yield "Nobody was excluded by a rule."
+    reasons = "; ".join(f"{reason}: {n}" for reason, n in excluded.items())
+    yield f"Excluded: {reasons}." if excluded else "Nobody was excluded."
 
 
 def _declared(results: StudyResults) -> Iterator[str]:
@@ -103,7 +101,10 @@ def _comparisons(results: StudyResults) -> Iterator[str]:
     )
     laps = results.frames.laps
     if laps.duplicated(["participant", "condition"]).any():
-        yield "Where a condition was driven more than once, a participant's laps were averaged."
+        yield (
+            "Where a condition was driven more than once, a participant's laps were averaged; of "
+            "answers the last one counts, and distributions are those of all laps."
+        )
     if any(c.incomplete for c in pairs):
         yield "A pair with a missing value was left out of its comparison and counted."
     if effects := _used(r for c in pairs for r in (c.rank_biserial, c.dz)):
@@ -139,8 +140,8 @@ def _models(results: StudyResults) -> Iterator[str]:
         )
     if not results.practice.empty:
         yield (
-            "Since the order of laps follows from their conditions, a sensitivity table shows what "
-            "is left of each contrast if practice saved a given share of the time per lap."
+            "Since practice and condition are confounded, a sensitivity table shows what is left "
+            "of each contrast if practice saved a given share of the time per lap."
         )
 
 

@@ -7,6 +7,8 @@ from typing import Any
 
 import pandas as pd
 
+from analysis.frames import StudyFrames
+from analysis.practice import other_orders
 from analysis.report.blocks import Block, Paragraph, Remarks, Section, Shown, table
 from analysis.report.words import count, interval, number, p_value, percent, with_interval
 from analysis.results import StudyResults
@@ -18,20 +20,28 @@ def practice_section(results: StudyResults) -> Section:
     """Return the model's contrasts, and what is left of them under plausible practice."""
     blocks: list[Block] = []
     if results.model:
-        caption = (
-            "Exploratory: log lap time ~ condition + (1 | participant). Ratios of (geometric mean) "
-            "lap times, condition / reference: below 1 the condition is faster. The model takes "
-            "all contrasts to spread alike; the last three columns, from each participant's own "
-            "contrast, do not, and are the ones to read where the standard deviations differ."
-        )
         frame = _contrasts(results.model, results.contrasts)
-        blocks.append(table("mixed_model", caption, frame, _MODEL))
-        blocks.append(Remarks(_about((*results.model, *results.contrasts))))
+        blocks.append(table("mixed_model", _caption(results.model), frame, _MODEL))
+        blocks.append(Remarks((*_about(results.model), *_about_own(results.contrasts))))
     else:
         blocks.append(Paragraph(f"There is no mixed model: {_why_no_model(results)}."))
     if not results.practice.empty:
-        blocks += _practice(results.practice)
+        blocks += _practice(results.frames, results.practice)
     return Section("practice", "Mixed model and practice", tuple(blocks))
+
+
+def _caption(model: Sequence[TestResult]) -> str:
+    ratios = (
+        "Ratios of (geometric mean) lap times, condition / reference: below 1 the condition is "
+        "faster."
+    )
+    if not any(found.checks for found in model):
+        return f"Exploratory: log lap times without a mixed model, for the reason below. {ratios}"
+    return (
+        f"Exploratory: log lap time ~ condition + (1 | participant). {ratios} The model takes all "
+        "contrasts to spread alike; the last three columns, from each participant's own contrast, "
+        "do not, and are the ones to read where the standard deviations differ."
+    )
 
 
 def _why_no_model(results: StudyResults) -> str:
@@ -81,14 +91,34 @@ def _about(model: Sequence[TestResult]) -> tuple[str, ...]:
     return tuple(f"{text[0].upper()}{text[1:].rstrip('.')}." for text in dict.fromkeys(said))
 
 
-def _practice(frame: pd.DataFrame) -> list[Block]:
+def _about_own(contrasts: Sequence[TestResult]) -> tuple[str, ...]:
+    """Return one remark for each participant's-own contrast."""
+    said = ((f.name, [f.method, *f.checks, *f.notes, f.why_not]) for f in contrasts)
+    return tuple(
+        f"{name}, own spread: {'; '.join(text for text in texts if text)}." for name, texts in said
+    )
+
+
+def _confounded(frames: StudyFrames) -> str:
+    others, people = other_orders(frames)
+    if others:
+        return (
+            f"Only {others} of {people} participants drove another order than the rest: with the "
+            "lap's place in the model, practice would hang on them. So practice and condition are "
+            "confounded."
+        )
+    return (
+        "The place of a lap in the session follows from its condition: the model matrix with both "
+        "would be singular, so practice and condition are confounded."
+    )
+
+
+def _practice(frames: StudyFrames, frame: pd.DataFrame) -> list[Block]:
     tipping = frame.drop_duplicates(["condition", "reference"]).to_dict("records")
     return [
         Paragraph(
-            "The place of a lap in the session follows from its condition: the model matrix with "
-            "both would be singular, so practice and condition are confounded. Instead, the table "
-            "shows what is left of each ratio if practice had saved a given share of the time from "
-            "every lap to the next."
+            f"{_confounded(frames)} Instead, the table shows what is left of each ratio if "
+            "practice had saved a given share of the time from every lap to the next."
         ),
         replace(
             table("practice", "Ratio of lap times left, with 95% intervals, if practice had saved "

@@ -40,3 +40,19 @@ def test_laps_left_out_of_the_model_are_counted(make_study):
         "human-assisted": "2",
         "model-assisted": "3",
     }
+
+
+def test_a_contrast_says_how_many_have_both_of_its_laps(make_study):
+    """The model takes those with one of the two laps, too; each own contrast has its remark."""
+    text = remarks(practice_section(analyse(make_study(participants=4, unfinished={(1, 4)}))))
+    assert "Model-assisted against limited: 3 of 4 participants have both." in text
+    assert "Human-assisted against limited: " not in text
+    assert "human-assisted against limited, own spread: paired t, 3 df, two-sided; standard" in text
+
+
+def test_without_a_model_the_caption_describes_none(make_study):
+    """One participant cannot be modelled."""
+    section = practice_section(analyse(make_study(participants=1)))
+    model = next(block for block in section.blocks if getattr(block, "name", "") == "mixed_model")
+    assert "without a mixed model, for the reason below" in model.caption
+    assert "too few: 4 laps of 1 participants" in remarks(section)
