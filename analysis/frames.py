@@ -137,7 +137,7 @@ def practised(laps: pd.DataFrame, protocol: StudyProtocol) -> pd.Series:
 
 def as_frame(table: pa.Table) -> pd.DataFrame:
     """Return a table as a frame; whole numbers with gaps become floats with NaN."""
-    frame: pd.DataFrame = table.to_pandas()
+    frame: pd.DataFrame = table.to_pandas(use_threads=False)  # for tables this small, slower with
     return frame
 
 

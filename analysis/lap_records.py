@@ -99,14 +99,19 @@ def _steps(study: Study, participant: str, lap: int) -> Steps:
 def _kept(steps: Steps, participant: str, lap: int, condition: str) -> pd.DataFrame:
     on = helped(steps)
     unknown = np.full(len(steps), np.nan)
-    frame = pd.DataFrame({name: stream(steps, name).astype(np.float32) for name in POOLED})
-    frame["helped"] = (unknown if on is None else on).astype(np.float32)
-    for name in ("section", "section_kind"):
-        frame[name] = pd.Categorical(steps[name].to_numpy(dtype=object))
-    frame.insert(0, "participant", participant)
-    frame.insert(1, "lap", np.int16(lap))
-    frame.insert(2, "condition", condition)
-    return frame
+    return pd.DataFrame(
+        {
+            "participant": participant,
+            "lap": np.int16(lap),
+            "condition": condition,
+            **{name: stream(steps, name).astype(np.float32) for name in POOLED},
+            "helped": (unknown if on is None else on).astype(np.float32),
+            **{
+                name: pd.Categorical(steps[name].to_numpy(dtype=object))
+                for name in ("section", "section_kind")
+            },
+        }
+    )
 
 
 def _together(pooled: Sequence[pd.DataFrame]) -> pd.DataFrame:

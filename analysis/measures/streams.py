@@ -54,15 +54,18 @@ def gaps(steps: Steps) -> tuple[str, ...]:
 
 
 def _gaps(steps: Steps) -> Iterator[str]:
-    for column in STEP_COLUMNS:
-        if column.name not in steps or steps[column.name].dtype != np.float64:
+    dtypes = steps.dtypes
+    names = [c.name for c in STEP_COLUMNS if dtypes.get(c.name) == np.float64]
+    infinite = np.isinf(steps[names].to_numpy()).any(axis=0)
+    for name, somewhere in zip(names, infinite, strict=True):
+        if somewhere:
+            yield f"{name} is infinite in some steps: missing there"
+        if name not in BOUNDS:
             continue
-        values = _as_recorded(steps, column.name)
-        if np.isinf(values).any():
-            yield f"{column.name} is infinite in some steps: missing there"
-        if _out_of_bounds(values[np.isfinite(values)], column.name).any():
-            low, high = BOUNDS[column.name]
-            yield f"{column.name} is not between {low:g} and {high:g} in some steps: missing there"
+        values = _as_recorded(steps, name)
+        if _out_of_bounds(values[np.isfinite(values)], name).any():
+            low, high = BOUNDS[name]
+            yield f"{name} is not between {low:g} and {high:g} in some steps: missing there"
     t = stream(steps, "t_s")
     if len(t) > 1 and not np.isnan(t).all() and np.isnan(period(steps)):
         yield ("t_s does not increase from step to step: measures that need the time are missing")
