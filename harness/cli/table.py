@@ -27,7 +27,7 @@ def print_lap_times(folder: Path) -> None:
             _number(row["sd_s"]),
             _number(row["median_s"]),
             _number(row["speedup_percent"], "%", 0),
-            _number(row["paper_mean_s"]),
+            _number(row["paper_mean_s"], places=2),
         )
     OUT.print(table)
 
