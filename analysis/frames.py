@@ -137,7 +137,8 @@ def practised(laps: pd.DataFrame, protocol: StudyProtocol) -> pd.Series:
 
 def as_frame(table: pa.Table) -> pd.DataFrame:
     """Return a table as a frame; whole numbers with gaps become floats with NaN."""
-    frame: pd.DataFrame = table.to_pandas(use_threads=False)  # for tables this small, slower with
+    # Threads cost more than they save in tables of a few hundred rows; there are thousands of them.
+    frame: pd.DataFrame = table.to_pandas(use_threads=False)
     return frame
 
 

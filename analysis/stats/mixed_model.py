@@ -152,14 +152,17 @@ def lap_time_model(
 def _laps_used(laps: pd.DataFrame, timed: pd.DataFrame, n: int) -> str:
     left = len(laps) - len(timed)
     without = f"; {left} without a time left out" if left else ""
-    return f"{len(timed)} laps of {n} participants{without}"
+    people = "1 participant" if n == 1 else f"{n} participants"
+    return f"{len(timed)} laps of {people}{without}"
 
 
 def _resting_on(timed: pd.DataFrame, condition: str, reference: str, n: int) -> tuple[str, ...]:
-    """Tell that not everybody drove both laps of a contrast: then some came from one of them."""
+    """Tell how many drove both laps of a contrast, where not everybody did."""
     drove = (set(timed.loc[timed["condition"] == c, "participant"]) for c in (condition, reference))
     both = len(set.intersection(*drove))
-    return (f"{condition} against {reference}: {both} of {n} participants have both",) * (both < n)
+    if both == n:
+        return ()
+    return (f"{condition} against {reference}: {both} of {n} participants have both",)
 
 
 def _fit(laps: pd.DataFrame, design: Design) -> tuple[Any, tuple[str, ...]]:

@@ -55,4 +55,4 @@ def test_without_a_model_the_caption_describes_none(make_study):
     section = practice_section(analyse(make_study(participants=1)))
     model = next(block for block in section.blocks if getattr(block, "name", "") == "mixed_model")
     assert "without a mixed model, for the reason below" in model.caption
-    assert "too few: 4 laps of 1 participants" in remarks(section)
+    assert "too few: 4 laps of 1 participant." in remarks(section)
