@@ -9,7 +9,7 @@ import pandas as pd
 import pyarrow as pa
 
 from analysis.roles import Part, cast
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.record.reader import Study, off_scale
 from protocols.record.tables import SURVEY_SCHEMA
 from protocols.study import StudyProtocol

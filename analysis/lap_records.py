@@ -10,7 +10,7 @@ import pandas as pd
 from analysis.frames import StudyFrames, as_frame, within
 from analysis.measures.registry import MEASURES
 from analysis.measures.streams import Steps, gaps, helped, stream
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.record.reader import Study
 from protocols.record.steps import STEP_COLUMNS
 

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from analysis.frames import StudyFrames
-from analysis.roles import yardstick
+from analysis.roles import reference_condition
 from analysis.stats.mixed_model import lap_time_design
 from analysis.stats.result import TestResult
 
@@ -19,7 +19,7 @@ PLAUSIBLE = (0.0, 2.5, 5.0, 10.0, 15.0, 20.0)
 def order_confounded(frames: StudyFrames) -> bool:
     """Tell whether the lap's place in the session follows from its condition, or nearly so."""
     timed = frames.laps.dropna(subset=["lap_time_s"])
-    reference = yardstick(frames.parts)
+    reference = reference_condition(frames.parts)
     if reference is None or timed["condition"].nunique() < 2:
         return False
     return not lap_time_design(timed, reference).with_lap

@@ -23,7 +23,7 @@ from analysis.frames import as_frame
 from analysis.measures.streams import Numbers, Steps, period, stream
 from lad.inputs import N_SEGMENTS
 from protocols.course.schema import Course
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.record.atomic import write_whole
 from protocols.record.reader import open_study
 from protocols.wheelchair import FRONT, LASER_AHEAD, REAR, WIDTH

@@ -17,7 +17,7 @@ from analysis.lap_records import LapRecords, read_laps
 from analysis.maps import participant_maps, plan_grid
 from analysis.practice import practice_table
 from analysis.randomness import generator
-from analysis.roles import first, yardstick
+from analysis.roles import first, reference_condition
 from analysis.stats.map_overlap import map_overlap
 from analysis.stats.mixed_model import lap_time_model
 from analysis.stats.own_contrasts import own_contrasts
@@ -125,14 +125,14 @@ def analyse(study: Study, progress: Progress | None = None) -> StudyResults:
 
 
 def _model(frames: StudyFrames) -> tuple[TestResult, ...]:
-    reference = yardstick(frames.parts)
+    reference = reference_condition(frames.parts)
     if reference is None:
         return ()
     return lap_time_model(frames.laps, reference, generator(frames.study, "mixed model"))
 
 
 def _contrasts(frames: StudyFrames) -> tuple[TestResult, ...]:
-    reference = yardstick(frames.parts)
+    reference = reference_condition(frames.parts)
     return () if reference is None else own_contrasts(frames.laps, reference)
 
 

@@ -61,6 +61,6 @@ def first(parts: tuple[Part, ...], role: Role) -> str | None:
     return next((part.condition for part in parts if part.role == role), None)
 
 
-def yardstick(parts: tuple[Part, ...]) -> str | None:
+def reference_condition(parts: tuple[Part, ...]) -> str | None:
     """Return the condition that speedups are measured from: limited, else the baseline."""
     return first(parts, "limited") or first(parts, "baseline")

@@ -4,7 +4,7 @@ import pandas as pd
 
 from analysis.comparisons import lap_time_comparisons
 from analysis.frames import study_frames
-from analysis.roles import yardstick
+from analysis.roles import reference_condition
 from analysis.tables.lap_times import lap_time_table
 from protocols.record.reader import Study
 
@@ -22,7 +22,7 @@ def lap_summary(study: Study) -> pd.DataFrame:
     """
     frames = study_frames(study)
     table = lap_time_table(frames)
-    reference = yardstick(frames.parts)
+    reference = reference_condition(frames.parts)
     speedups: dict[str, float] = {}
     for c in lap_time_comparisons(frames):
         ratio = c.ratio_of_means

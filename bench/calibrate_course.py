@@ -25,9 +25,10 @@ import lay_out_course
 import numpy as np
 from scipy.optimize import minimize, root_scalar
 
-from harness.plan import Plan
-from harness.session import Session
-from harness.world import BulletWorld
+from harness.session.parts import make_parts
+from harness.session.session import Session
+from harness.session.study_run import StudyRun
+from harness.world.bullet_world import BulletWorld
 from participants.attentive import AttentiveOptions
 from protocols.course.schema import Course
 from protocols.load import resolve_study
@@ -101,7 +102,8 @@ def drive(candidate: Candidate, conditions: tuple[str, ...], number: int) -> lis
         study.course, protocol.laser, protocol.control_period_s, start_noise=protocol.start_noise
     )
     try:
-        laps = Session(Plan(study, SEED), number, world).run().laps
+        run = StudyRun(study, SEED)
+        laps = Session(run, number, world, make_parts(run, number)).run().laps
     finally:
         world.close()
     times = {lap.row.condition: lap.row.duration_s for lap in laps}

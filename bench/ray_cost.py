@@ -6,7 +6,7 @@ import time
 import numpy as np
 from synthetic_course import synthetic_course
 
-from harness.laser import Laser
+from harness.world.laser import Laser
 from protocols.course.centreline import Centreline
 from protocols.course.obstacles import obstacle_boxes
 from protocols.pose import Pose

@@ -17,14 +17,14 @@ import peers.shipped_lap
 from peers.lad_study import LadStudy
 from synthetic_course import synthetic_course
 
-from harness.bullet import BulletChair
-from harness.casting import cast, draw_person
-from harness.lap_log import LapLog
-from harness.laser import Laser
-from harness.plan import Plan
-from harness.safeguard import Safeguard
-from harness.session import Session
-from harness.world import BulletWorld
+from harness.session.lap_log import LapLog
+from harness.session.parts import make_parts
+from harness.session.session import Session
+from harness.session.study_run import StudyRun
+from harness.world.bullet import BulletChair
+from harness.world.bullet_world import BulletWorld
+from harness.world.laser import Laser
+from harness.world.safeguard import Safeguard
 from participants.autonomous import AutonomousDriver
 from protocols.load import resolve_study
 from protocols.record import session as record
@@ -76,12 +76,12 @@ def print_splits(cell: tuple[int, int, int], seconds: float) -> None:
 
 def _session() -> Counter[str]:
     """Return the split of a participant's session, laps with demonstrator and model included."""
-    plan = Plan(resolve_study("four-lap"), 0)
-    study = plan.study
-    people = cast(plan, 1, draw_person(plan, 1))
+    run = StudyRun(resolve_study("four-lap"), 0)
+    study = run.study
+    people = make_parts(run, 1).lap
     world = BulletWorld(study.course, study.protocol.laser, study.protocol.control_period_s)
     split = _split(
-        lambda: record.encode(Session(plan, 1, world).run()),
+        lambda: record.encode(Session(run, 1, world, make_parts(run, 1)).run()),
         (
             *WORLD,
             (type(people.driver), "act", "driver"),

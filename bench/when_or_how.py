@@ -18,9 +18,10 @@ from typing import Literal
 
 import numpy as np
 
-from harness.plan import Plan
-from harness.session import Session
-from harness.world import BulletWorld
+from harness.session.parts import make_parts
+from harness.session.session import Session
+from harness.session.study_run import StudyRun
+from harness.world.bullet_world import BulletWorld
 from lad.assistant import NO_ASSISTANCE, Assistance
 from lad.command import Command
 from lad.lad_assistant import LADAssistant
@@ -87,12 +88,11 @@ def drive(seed: int, decides: Deciding, number: int) -> list[tuple[str, float, i
     world = BulletWorld(
         study.course, protocol.laser, protocol.control_period_s, start_noise=protocol.start_noise
     )
-    session = Session(Plan(replace(study, protocol=protocol), seed), number, world)
-    cast = session._cast  # noqa: SLF001  # an experiment that no study should be able to make
-    other = Remembering(cast.demonstrator)
-    session._cast = replace(  # noqa: SLF001  # the same
-        cast, demonstrator=other, model=Crossed(cast.model, other, decides)
-    )
+    run = StudyRun(replace(study, protocol=protocol), seed)
+    parts = make_parts(run, number)
+    other = Remembering(parts.lap.demonstrator)
+    crossed = replace(parts.lap, demonstrator=other, model=Crossed(parts.lap.model, other, decides))
+    session = Session(run, number, world, replace(parts, lap=crossed))
     try:
         laps = session.run().laps
     finally:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from lad.assistant import NO_ASSISTANCE, Assistance
-from participants.helping_hand import HelpingHand
+from participants.corner_steering import CornerSteering
 from participants.options import Options, read_options
 from participants.planning.surroundings import known_raster
 from participants.setup import DemonstratorSetup
@@ -88,7 +88,7 @@ class AttentiveDemonstrator:
         self._arc: float | None = None
         self._sight: Sight | None = None
         self._acts_at: float | None = None
-        self._hand: HelpingHand | None = None
+        self._hand: CornerSteering | None = None
 
     def look(self, sight: Sight) -> None:
         """See the room."""
@@ -108,7 +108,7 @@ class AttentiveDemonstrator:
         if self._sight.t < self._acts_at:
             return NO_ASSISTANCE
         if self._hand is None:
-            self._hand = HelpingHand(
+            self._hand = CornerSteering(
                 self._line, corner, self._raster, self._lap_rng, self._options.pace
             )
         return Assistance(helping=True, command=self._hand.steer(self._sight, self._arc))

@@ -11,16 +11,13 @@ from participants.dwa import DynamicWindow, choose
 from participants.localisation import Localisation
 from participants.options import Options, read_options
 from participants.planning.field import scan_field
-from participants.planning.route import Route, plan
+from participants.planning.route import Route, plan_route
 from participants.planning.surroundings import known_raster
 from participants.recovery import Recovery
 from participants.setup import DriverSetup
 from participants.sight import Sight
 from protocols.course.occupancy import Occupancy
-from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
-
-LASER_RANGE = 4.0
-"""Returns from here on are none, m."""
+from protocols.wheelchair import LASER_RANGE, MAX_SPEED, MAX_TURN_RATE
 
 PATIENCE = 1.0
 """Standing still against its will for longer makes it try something else, s."""
@@ -126,5 +123,5 @@ class AutonomousDriver:
 def autonomous_driver(setup: DriverSetup) -> AutonomousDriver:
     """Return the autonomous driver for a course; see ``AutonomousOptions``."""
     options = read_options("driver 'autonomous'", AutonomousOptions, setup.options)
-    route, raster = plan(setup.course), known_raster(setup.course)
+    route, raster = plan_route(setup.course), known_raster(setup.course)
     return AutonomousDriver(route, raster, setup.rng, options=options)

@@ -41,6 +41,14 @@ class Person:
     handedness: str
     impairment: ImpairmentChoice | None = None
 
+    def particulars(self) -> dict[str, int | str]:
+        """Return what the person would enter on a form, by field."""
+        return {
+            "age_years": self.age_years,
+            "gender": self.gender,
+            "handedness": self.handedness,
+        }
+
     def as_numbers(self) -> dict[str, float]:
         """Return every trait by name, for the record; units are part of the names."""
         severity = {} if self.impairment is None else {SEVERITY: self.impairment.severity}

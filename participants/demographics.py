@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy import optimize
 
 from protocols.cohort import AgeRange, Demographics
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 
 class Options(BaseModel):

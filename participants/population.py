@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from participants.traits import ResponseStyle, Trait, Traits, declared
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 TRAITS: Mapping[str, Trait] = {**declared(Traits), **declared(ResponseStyle)}
 """Every trait there is, by name."""

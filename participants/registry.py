@@ -1,31 +1,27 @@
-"""Where a name in a protocol becomes somebody: driver, impairment, demonstrator, respondent.
+"""Where a name in a protocol becomes a driver, an impairment, a demonstrator or a respondent.
 
-A name is a shipped one, or a dotted path ``package.module:factory`` to a function that takes the
-setup (see ``participants.setup``) and returns the driver, demonstrator or respondent; that of an
+A name is a shipped one (``protocols.shipped_parts``), or a dotted path ``package.module:factory``
+to a function that takes the setup (see ``participants.setup``) and returns the part; that of an
 impairment returns a driver around the one it is given. Nothing has to be edited here to add one.
 """
 
 from collections.abc import Mapping
-from importlib import import_module
+from pathlib import Path
 from typing import Any, cast
 
 from participants.demonstrator import Demonstrator
-from participants.driver import Driver
+from participants.driver import Driver, kind_of
+from participants.part_loader import load_factory, refuse_missing_methods
 from participants.setup import DemonstratorSetup, DriverSetup, ImpairmentSetup, RespondentSetup
 from participants.survey import Respondent
-from protocols.errors import InputError
-
-DRIVERS: Mapping[str, str] = {
-    "human": "participants.human.driver:human_driver",
-    "autonomous": "participants.autonomous:autonomous_driver",
-    "scripted": "participants.scripted:scripted_driver",
-}
-IMPAIRMENTS: Mapping[str, str] = {
-    "tremor": "participants.impairments.tremor:tremor",
-    "weakness": "participants.impairments.weakness:weakness",
-}
-DEMONSTRATORS: Mapping[str, str] = {"attentive": "participants.attentive:attentive_demonstrator"}
-RESPONDENTS: Mapping[str, str] = {"ordinal": "participants.respondent:ordinal_respondent"}
+from protocols.files.errors import InputError
+from protocols.shipped_parts import (
+    DEMONSTRATORS,
+    DRIVERS,
+    IMPAIRMENTS,
+    PORTABLE_OPTIONS,
+    RESPONDENTS,
+)
 
 
 def make_driver(name: str, setup: DriverSetup) -> Driver:
@@ -36,7 +32,7 @@ def make_driver(name: str, setup: DriverSetup) -> Driver:
     InputError
         When there is no such driver, or it cannot be made with these options.
     """
-    return cast("Driver", _make("driver", DRIVERS, ("start_lap", "act"), name, setup))
+    return _driver("driver", DRIVERS, name, setup)
 
 
 def make_impaired(name: str, setup: ImpairmentSetup) -> Driver:
@@ -47,7 +43,7 @@ def make_impaired(name: str, setup: ImpairmentSetup) -> Driver:
     InputError
         When there is no such impairment, or it cannot be made with these options.
     """
-    return cast("Driver", _make("impairment", IMPAIRMENTS, ("start_lap", "act"), name, setup))
+    return _driver("impairment", IMPAIRMENTS, name, setup)
 
 
 def make_demonstrator(name: str, setup: DemonstratorSetup) -> Demonstrator:
@@ -73,34 +69,32 @@ def make_respondent(name: str, setup: RespondentSetup) -> Respondent:
     return cast("Respondent", _make("respondent", RESPONDENTS, ("answer",), name, setup))
 
 
+def portable_driver_options(name: str, options: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """Return a driver's options in a form that needs no file: what they name is read now.
+
+    Raises
+    ------
+    InputError
+        When a file that they name cannot be used.
+    """
+    if name not in PORTABLE_OPTIONS:
+        return dict(options)
+    made: dict[str, Any] = load_factory("driver", PORTABLE_OPTIONS, name)(options, folder)
+    return made
+
+
+def _driver(role: str, shipped: Mapping[str, str], name: str, setup: object) -> Driver:
+    driver = cast("Driver", _make(role, shipped, ("start_lap", "act"), name, setup))
+    try:
+        kind_of(driver)
+    except ValueError as error:
+        raise InputError(f"{role} {name!r}: {error}") from None
+    return driver
+
+
 def _make(
     role: str, shipped: Mapping[str, str], methods: tuple[str, ...], name: str, setup: object
 ) -> Any:
-    factory = _factory(role, shipped, name)
-    somebody = factory(setup)
-    missing = [method for method in methods if not callable(getattr(somebody, method, None))]
-    if missing:
-        raise InputError(
-            f"{role} {name!r}: what it makes is no {role}, it lacks {', '.join(missing)}"
-        )
-    return somebody
-
-
-def _factory(role: str, shipped: Mapping[str, str], name: str) -> Any:
-    allowed = f"allowed: {', '.join(sorted(shipped))}, or a dotted path package.module:factory"
-    module_name, colon, attribute = shipped.get(name, name).partition(":")
-    if not colon:
-        raise InputError(f"{role} {name!r}: there is none of this name; {allowed}")
-    try:
-        module = import_module(module_name)
-    except Exception as error:  # somebody's module may fail in any way
-        reason = f"{type(error).__name__}: {error}".splitlines()[0]
-        raise InputError(
-            f"{role} {name!r}: cannot import {module_name!r} ({reason}); {allowed}"
-        ) from error
-    factory = getattr(module, attribute, None)
-    if not callable(factory):
-        raise InputError(
-            f"{role} {name!r}: {module_name!r} has no function {attribute!r}; {allowed}"
-        )
-    return factory
+    part = load_factory(role, shipped, name)(setup)
+    refuse_missing_methods(role, name, part, methods)
+    return part

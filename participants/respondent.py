@@ -8,9 +8,12 @@ from pydantic import Field
 from participants.loadings import KNOWN, Loadings, impression
 from participants.options import Options, read_options
 from participants.setup import RespondentSetup
-from participants.survey import LapExperience, Question
+from participants.survey import Answer, LapExperience, Question
 from participants.traits import ResponseStyle
-from protocols.errors import InputError
+from protocols.files.errors import InputError
+
+LINE = 5.0
+"""Length of an answering line on the latent scale: as long as five points with cuts one apart."""
 
 NO_STYLE = ResponseStyle(acquiescence=0.0, extremity=1.0, liking=0.0, missing_share=0.0)
 """A respondent without habits."""
@@ -51,7 +54,7 @@ class OrdinalRespondent:
 
     def answer(
         self, questions: Sequence[Question], lived: LapExperience, rng: np.random.Generator
-    ) -> tuple[int | None, ...]:
+    ) -> tuple[Answer, ...]:
         """Answer the questions about one lap; None where one was left out."""
         felt = impression(lived)
         # The same draws for every item, answered or not: one item's fate moves no other's.
@@ -63,10 +66,14 @@ class OrdinalRespondent:
             for i, question in enumerate(questions)
         )
 
-    def _choose(self, question: Question, felt: Mapping[str, float], noise: float) -> int:
+    def _choose(self, question: Question, felt: Mapping[str, float], noise: float) -> Answer:
+        if question.answer == "text":
+            return None  # nobody has modelled what people write
         style = self._style
         item = self._loadings[question.instrument, question.item]
         opinion = item.latent(felt, style.liking) + style.acquiescence + noise
+        if question.answer == "number":
+            return on_range(style.extremity * opinion, question.lowest, question.highest)
         return on_scale(style.extremity * opinion, question.points)
 
 
@@ -80,6 +87,22 @@ def on_scale(latent: float, points: int) -> int:
     """
     cuts = np.arange(1, points) - points / 2
     return 1 + int(np.searchsorted(cuts, latent))
+
+
+def on_range(latent: float, lowest: float | None, highest: float | None) -> float:
+    """Return a number on a line with two ends: its middle for 0, nine tenths of it for 2.
+
+    The ends are those that the item gives, 0 and 100 where it gives none; whole numbers.
+
+    Examples
+    --------
+    >>> [on_range(latent, 0.0, 100.0) for latent in (-9.0, 0.0, 1.0)]
+    [0.0, 50.0, 70.0]
+    """
+    low = 0.0 if lowest is None else lowest
+    high = low + 100.0 if highest is None else highest
+    share = min(max(0.5 + latent / LINE, 0.0), 1.0)
+    return float(round(low + share * (high - low)))
 
 
 def ordinal_respondent(setup: RespondentSetup) -> OrdinalRespondent:

@@ -2,19 +2,20 @@
 
 import csv
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Self
+from typing import Annotated, Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
 from lad.command import STILL, Command
+from participants.driver import ParticipantKind
 from participants.options import Options, read_options
 from participants.setup import DriverSetup
 from participants.sight import Sight
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 COLUMNS = ("t_s", "v_m_s", "w_rad_s")
 """Columns of a command log; it may have others, which are not read."""
@@ -64,6 +65,8 @@ class ScriptedDriver:
     >>> ScriptedDriver([(0.0, 0.5, 0.0), (2.0, 0.0, 0.0)]).command_at(1.9)
     Command(v=0.5, w=0.0)
     """
+
+    kind: ParticipantKind = "scripted"
 
     def __init__(self, log: ArrayLike, where: str = "command log") -> None:
         self._log = _checked(log, where)
@@ -152,3 +155,22 @@ def scripted_driver(setup: DriverSetup) -> ScriptedDriver:
         return ScriptedDriver(options.commands or [], "driver 'scripted': commands")
     path = (setup.folder or Path()) / options.file
     return ScriptedDriver(read_log(path), str(path))
+
+
+def portable_options(options: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """Return options that do not need the command log's file any more: it is read here and now.
+
+    Sessions may run on machines that do not have the file, and the study directory says what was
+    driven even when the file is gone.
+
+    Raises
+    ------
+    InputError
+        When the file cannot be read, or its log not be replayed.
+    """
+    if set(options) != {"file"}:
+        return dict(options)
+    path = folder / str(options["file"])
+    log = read_log(path)
+    ScriptedDriver(log, str(path))  # refuses, by the file's name, what it could not replay
+    return {"commands": log.tolist()}

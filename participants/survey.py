@@ -6,6 +6,11 @@ from typing import Protocol
 
 import numpy as np
 
+from protocols.instrument import AnswerKind
+
+Answer = int | float | str | None
+"""A point of a scale, a number, text; None where a question was left out."""
+
 
 @dataclass(frozen=True, slots=True)
 class Question:
@@ -19,11 +24,24 @@ class Question:
         The item's id, e.g. ``"Q7"``.
     points
         How many points the answering scale has, 2 or more; 1 is the strongest disagreement.
+    text
+        The wording, as a person reads it.
+    anchors
+        Labels of the scale's points, from 1 upwards.
+    answer
+        How it is answered: by a point of the scale, a number, or free text.
+    lowest, highest
+        Of a number, both included; None for no bound.
     """
 
     instrument: str
     item: str
     points: int = 5
+    text: str = ""
+    anchors: tuple[str, ...] = ()
+    answer: AnswerKind = "point"
+    lowest: float | None = None
+    highest: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +80,7 @@ class Respondent(Protocol):
 
     def answer(
         self, questions: Sequence[Question], lived: LapExperience, rng: np.random.Generator
-    ) -> tuple[int | None, ...]:
+    ) -> tuple[Answer, ...]:
         """Answer the questions about one lap.
 
         Parameters
@@ -77,5 +95,5 @@ class Respondent(Protocol):
         Returns
         -------
         tuple
-            One answer per question, 1 to the scale's points; None where it was left out.
+            One answer per question, of the question's kind; None where it was left out.
         """

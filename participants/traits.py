@@ -7,7 +7,7 @@ stand here; how traits are distributed over people stands in ``participants.coho
 from dataclasses import dataclass, fields
 from typing import Annotated, get_args, get_type_hints
 
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,8 @@ from typing import Annotated, Any, Self
 
 from pydantic import Field, model_validator
 
-from protocols.part import Name, Part, shipped_or_factory
+from protocols.files.file_model import FileModel, Name, shipped_or_factory
+from protocols.shipped_parts import DEMONSTRATORS, DRIVERS, IMPAIRMENTS, RESPONDENTS
 
 Options = dict[str, Any]
 """Settings handed to the component as keyword arguments; the component checks them."""
@@ -13,7 +14,7 @@ Options = dict[str, Any]
 Share = Annotated[float, Field(ge=0, le=1)]
 
 
-class AgeRange(Part):
+class AgeRange(FileModel):
     """Ages of the people a synthetic cohort is drawn from, in years."""
 
     lowest: Annotated[float, Field(ge=0, le=120)] = 21
@@ -34,7 +35,7 @@ class AgeRange(Part):
         return self
 
 
-class Demographics(Part):
+class Demographics(FileModel):
     """What a synthetic cohort is drawn from; the default is the paper's sample (section V.B).
 
     The paper does not report handedness; the default share of left-handers is the estimate of
@@ -46,28 +47,28 @@ class Demographics(Part):
     left_handed_share: Share = 0.106
 
 
-class DriverChoice(Part):
+class DriverChoice(FileModel):
     """Who sits in the wheelchair."""
 
-    use: shipped_or_factory("human", "autonomous", "scripted") = "human"  # type: ignore[valid-type]
+    use: shipped_or_factory(*DRIVERS) = "human"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
 
 
-class DemonstratorChoice(Part):
+class DemonstratorChoice(FileModel):
     """Who watches and takes over, or as a shadow says what they would do."""
 
-    use: shipped_or_factory("attentive") = "attentive"  # type: ignore[valid-type]
+    use: shipped_or_factory(*DEMONSTRATORS) = "attentive"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
 
 
-class RespondentChoice(Part):
+class RespondentChoice(FileModel):
     """Who answers the questions."""
 
-    use: shipped_or_factory("ordinal") = "ordinal"  # type: ignore[valid-type]
+    use: shipped_or_factory(*RESPONDENTS) = "ordinal"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
 
 
-class ImpairmentChoice(Part):
+class ImpairmentChoice(FileModel):
     """What the bodies of some participants do to their own intentions.
 
     Attributes
@@ -78,13 +79,13 @@ class ImpairmentChoice(Part):
         From none to severe; what that means is the impairment's.
     """
 
-    use: shipped_or_factory("tremor", "weakness")  # type: ignore[valid-type]
+    use: shipped_or_factory(*IMPAIRMENTS)  # type: ignore[valid-type]
     share: Share = 1.0
     severity: Annotated[float, Field(ge=0, le=1)] = 0.5
     options: Options = Field(default_factory=dict)
 
 
-class TraitDistribution(Part):
+class TraitDistribution(FileModel):
     """How one trait is distributed over synthetic people, instead of as calibrated.
 
     Attributes
@@ -99,13 +100,23 @@ class TraitDistribution(Part):
     spread: Annotated[float, Field(ge=0, le=10)]
 
 
-class Cohort(Part):
-    """The people of a study. A study can be enlarged: only ``participants`` may change then."""
+class Cohort(FileModel):
+    """The people of a study. A study can be enlarged: only ``participants`` may change then.
+
+    Attributes
+    ----------
+    participants
+        How many.
+    driver, demonstrator, respondent
+        Who drives, helps and answers; null for a study without a demonstrator or a respondent.
+    demographics, impairments, traits
+        What synthetic people are drawn from.
+    """
 
     participants: Annotated[int, Field(ge=1, le=9999)] = 12
     driver: DriverChoice = DriverChoice()
-    demonstrator: DemonstratorChoice = DemonstratorChoice()
-    respondent: RespondentChoice = RespondentChoice()
+    demonstrator: DemonstratorChoice | None = DemonstratorChoice()
+    respondent: RespondentChoice | None = RespondentChoice()
     demographics: Demographics = Demographics()
     impairments: tuple[ImpairmentChoice, ...] = ()
     traits: dict[Name, TraitDistribution] = Field(default_factory=dict)

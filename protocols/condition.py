@@ -4,20 +4,20 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from protocols.part import Part
+from protocols.files.file_model import FileModel
 from protocols.wheelchair import MAX_TURN_RATE
 
-AssistantKind = Literal["none", "demonstrator", "model"]
+AssistantRole = Literal["none", "demonstrator", "model"]
 ArbitrationKind = Literal["takeover", "augment"]
 
 
-class LimitationSettings(Part):
+class LimitationSettings(FileModel):
     """The control limitation: what full deflection to the right still gives, in rad/s."""
 
     right_turn_rad_s: Annotated[float, Field(gt=0, le=MAX_TURN_RATE)] = 0.15
 
 
-class Condition(Part):
+class Condition(FileModel):
     """One way of driving a lap.
 
     Attributes
@@ -35,7 +35,7 @@ class Condition(Part):
     """
 
     limitation: LimitationSettings | None = None
-    assistant: AssistantKind = "none"
+    assistant: AssistantRole = "none"
     arbitration: ArbitrationKind = "takeover"
     safeguard: bool = True
     training: bool = False

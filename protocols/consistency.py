@@ -2,11 +2,12 @@
 
 from collections.abc import Iterator, Mapping
 
+from protocols.cohort import Cohort
 from protocols.condition import Condition
 from protocols.declared import Comparison
-from protocols.fault import Fault, InconsistentError, Location
-from protocols.plan import PlannedLap
-from protocols.suggestion import allowed
+from protocols.files.fault import Fault, InconsistentError, Location
+from protocols.files.suggestion import allowed
+from protocols.laps import PlannedLap
 
 
 def check_consistency(
@@ -14,6 +15,7 @@ def check_consistency(
     laps: tuple[PlannedLap, ...],
     analyses: tuple[Comparison, ...],
     *,
+    cohort: Cohort,
     taught: bool = False,
 ) -> None:
     """Refuse a protocol whose parts contradict one another.
@@ -22,6 +24,8 @@ def check_consistency(
     ----------
     conditions, laps, analyses
         As the protocol has them.
+    cohort
+        Whether there is a demonstrator, and a respondent.
     taught
         Whether the model may have been taught before the study.
 
@@ -30,9 +34,27 @@ def check_consistency(
     InconsistentError
         With every fault found and its location in the file.
     """
-    faults = (*_lap_faults(conditions, laps, taught), *_analysis_faults(conditions, laps, analyses))
+    faults = (
+        *_absent_faults(conditions, laps, cohort),
+        *_lap_faults(conditions, laps, taught),
+        *_analysis_faults(conditions, laps, analyses),
+    )
     if faults:
         raise InconsistentError(faults)
+
+
+def _absent_faults(
+    conditions: Mapping[str, Condition], laps: tuple[PlannedLap, ...], cohort: Cohort
+) -> Iterator[Fault]:
+    """Find what needs a demonstrator or a respondent in a study without one."""
+    for name, condition in conditions.items():
+        if cohort.demonstrator is None and condition.assistant == "demonstrator":
+            message = "needs a demonstrator; allowed: another assistant, or cohort.demonstrator"
+            yield Fault(("conditions", name, "assistant"), message)
+    for i, lap in enumerate(laps):
+        if cohort.respondent is None and lap.survey:
+            message = "nobody answers; allowed: no survey, or cohort.respondent"
+            yield Fault(("laps", i, "survey"), message)
 
 
 def _unknown_condition(given: str, conditions: Mapping[str, Condition]) -> str:

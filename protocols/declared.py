@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
-from protocols.part import Name, Part
+from protocols.files.file_model import FileModel, Name
 
 LAP_OUTCOMES = (
     "lap_time_s",
@@ -25,7 +25,7 @@ def _lap_outcome_or_item(value: str) -> str:
     raise ValueError(f"'{value}' is not an outcome; allowed: {allowed}")
 
 
-class Exclusion(Part):
+class Exclusion(FileModel):
     """Rules that exclude a participant from every analysis; None switches a rule off.
 
     A participant who is not excluded but lacks a lap is left out of the comparisons that need
@@ -43,7 +43,7 @@ class Exclusion(Part):
     max_collisions: Annotated[int, Field(ge=0)] | None = None
 
 
-class Comparison(Part):
+class Comparison(FileModel):
     """Two conditions compared within participants, declared in advance.
 
     Attributes

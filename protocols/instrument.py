@@ -5,13 +5,15 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from protocols.fault import Fault, InconsistentError
-from protocols.part import Name, Part
+from protocols.files.fault import Fault, InconsistentError
+from protocols.files.file_model import FileModel, Name
 
 ItemId = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]+$", max_length=40)]
 
+AnswerKind = Literal["point", "number", "text"]
 
-class Item(Part):
+
+class Item(FileModel):
     """One statement or question.
 
     Attributes
@@ -25,7 +27,11 @@ class Item(Part):
     reverse
         Whether agreement means less of what the subscale measures.
     asked
-        Whether the item makes sense after any lap, or only where somebody could help.
+        Whether the item makes sense after any lap, or only where help was possible.
+    answer
+        How it is answered: by a point of the instrument's scale, a number, or free text.
+    lowest, highest
+        Of a number, both included; null for no bound.
     """
 
     id: ItemId
@@ -33,9 +39,21 @@ class Item(Part):
     subscale: Name = "total"
     reverse: bool = False
     asked: Literal["every lap", "assisted laps"] = "every lap"
+    answer: AnswerKind = "point"
+    lowest: float | None = None
+    highest: float | None = None
+
+    @model_validator(mode="after")
+    def _bounds_are_of_a_number(self) -> Self:
+        bounds = [bound for bound in (self.lowest, self.highest) if bound is not None]
+        if bounds and self.answer != "number":
+            raise ValueError("lowest and highest are for an answer that is a number")
+        if len(bounds) == 2 and not bounds[0] < bounds[1]:
+            raise ValueError(f"lowest {bounds[0]:g} is not below highest {bounds[1]:g}")
+        return self
 
 
-class Instrument(Part):
+class Instrument(FileModel):
     """A questionnaire: items answered on one ordinal scale.
 
     Attributes

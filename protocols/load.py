@@ -4,14 +4,15 @@ from pathlib import Path
 
 from protocols.course.drivable import undrivable
 from protocols.course.schema import Course
-from protocols.errors import InputError
-from protocols.fault import Fault
+from protocols.files.errors import InputError
+from protocols.files.fault import Fault
+from protocols.files.validation import validate
 from protocols.instrument import Instrument
+from protocols.pages import Text
 from protocols.questions import laps_with_items, question_faults
 from protocols.resolved import ResolvedStudy
-from protocols.shipped import Source, locate, shipped_names
+from protocols.shipped import Source, locate, locate_text, shipped_names
 from protocols.study import StudyProtocol
-from protocols.validation import validate
 
 
 def shipped_protocols() -> tuple[str, ...]:
@@ -87,6 +88,7 @@ def resolve_study(
     document = source.document()
     protocol = validate(document, StudyProtocol)
     try:
+        protocol = _with_texts(protocol, source.folder)
         chosen = (
             _referred_course(protocol, source.folder) if course is None else load_course(course)
         )
@@ -143,6 +145,21 @@ def _referred_course(protocol: StudyProtocol, folder: Path | None) -> Course:
     except InputError as error:
         raise _ReferenceError(Fault(("course",), str(error))) from None
     return _course(source)
+
+
+def _with_texts(protocol: StudyProtocol, folder: Path | None) -> StudyProtocol:
+    """Return the protocol with every page's text in place of the file that holds it."""
+    texts: dict[str, Text] = {}
+    for field in ("consent", "debrief"):
+        page: Text | None = getattr(protocol, field)
+        if page is None or page.file is None:
+            continue
+        try:
+            text = locate_text(page.file, folder)
+        except InputError as error:
+            raise _ReferenceError(Fault((field, "file"), str(error))) from None
+        texts[field] = page.model_copy(update={"file": None, "text": text})
+    return protocol.model_copy(update=texts)
 
 
 def _instruments(protocol: StudyProtocol, folder: Path | None) -> dict[str, Instrument]:

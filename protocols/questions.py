@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator, Mapping
 
-from protocols.fault import Fault
+from protocols.files.fault import Fault
+from protocols.files.suggestion import allowed
 from protocols.instrument import Instrument
-from protocols.plan import PlannedLap, SurveyPlan
+from protocols.laps import AskedInstrument, PlannedLap
 from protocols.study import StudyProtocol
-from protocols.suggestion import allowed
 
 Instruments = Mapping[str, Instrument]
 """A study's instruments, by what its protocol calls them (a name or a path)."""
@@ -18,7 +18,7 @@ def laps_with_items(protocol: StudyProtocol, instruments: Instruments) -> tuple[
         lap.model_copy(
             update={
                 "survey": tuple(
-                    SurveyPlan(
+                    AskedInstrument(
                         instrument=instruments[survey.instrument].name,
                         items=asked_items(protocol, lap, survey, instruments[survey.instrument]),
                     )
@@ -71,7 +71,7 @@ def _outcome_faults(protocol: StudyProtocol, instruments: Instruments) -> Iterat
 
 
 def asked_items(
-    protocol: StudyProtocol, lap: PlannedLap, survey: SurveyPlan, instrument: Instrument
+    protocol: StudyProtocol, lap: PlannedLap, survey: AskedInstrument, instrument: Instrument
 ) -> tuple[str, ...]:
     """Return the ids of the items of an instrument that are asked after a lap."""
     if survey.items != "all":

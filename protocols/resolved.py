@@ -5,6 +5,7 @@ from pathlib import Path
 
 from protocols.course.schema import Course
 from protocols.instrument import Instrument, Item
+from protocols.laps import PlannedLap
 from protocols.study import StudyProtocol
 
 
@@ -37,10 +38,10 @@ class ResolvedStudy:
                 return instrument
         raise KeyError(name)
 
-    def questions(self, lap: int) -> tuple[tuple[Instrument, Item], ...]:
-        """Return what is asked after a lap (counted from 0), in order."""
+    def questions(self, planned: PlannedLap) -> tuple[tuple[Instrument, Item], ...]:
+        """Return what is asked after a planned lap, in order."""
         asked = []
-        for survey in self.protocol.laps[lap].survey:
+        for survey in planned.survey:
             instrument = self.instrument(survey.instrument)
             asked += [(instrument, instrument.item(item)) for item in survey.items]
         return tuple(asked)

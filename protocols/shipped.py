@@ -6,9 +6,9 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Literal
 
-from protocols.document import MAX_BYTES, Document, parse
-from protocols.errors import InputError
-from protocols.suggestion import allowed
+from protocols.files.document import MAX_BYTES, Document, parse
+from protocols.files.errors import InputError
+from protocols.files.suggestion import allowed
 
 Kind = Literal["studies", "courses", "instruments"]
 _WORD = {"studies": "protocol", "courses": "course", "instruments": "instrument"}
@@ -88,6 +88,28 @@ def locate(kind: Kind, name_or_path: str, folder: Path | None = None) -> Source:
     else:
         what = f"no {_WORD[kind]} is named {name_or_path!r}"
     raise InputError(f"{what}; {allowed(path.stem, shipped, ['a file'])}")
+
+
+def locate_text(name: str, folder: Path | None) -> str:
+    """Return a text file's content; its path starts in a folder, or in the current one.
+
+    Raises
+    ------
+    InputError
+        When it cannot be read, is empty, too large or not UTF-8.
+    """
+    path = Path(name) if folder is None else folder / name
+    try:
+        with path.open("rb") as stream:
+            content = stream.read(MAX_BYTES + 1)
+        text = content.decode("utf-8-sig")
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or "it is not UTF-8 text"
+        raise InputError(f"{name}: cannot be read: {reason}") from None
+    if len(content) > MAX_BYTES or not text.strip():
+        what = f"holds more than {MAX_BYTES} bytes" if len(content) > MAX_BYTES else "is empty"
+        raise InputError(f"{name}: {what}; allowed: a text file")
+    return text
 
 
 def shipped_text(name: str) -> str:

@@ -4,10 +4,10 @@ from typing import Annotated
 
 from pydantic import Field
 
-from protocols.part import Part
+from protocols.files.file_model import FileModel
 
 
-class StartNoise(Part):
+class StartNoise(FileModel):
     """How far from the course's start pose a lap may begin; drawn uniformly for each lap.
 
     Attributes

@@ -9,29 +9,34 @@ from protocols.cohort import Cohort, Options
 from protocols.condition import Condition
 from protocols.consistency import check_consistency
 from protocols.declared import Comparison, Exclusion
-from protocols.part import Name, Part, shipped_or_factory
-from protocols.plan import PlannedLap
+from protocols.files.file_model import FileModel, Name, shipped_or_factory
+from protocols.laps import PlannedLap
+from protocols.pages import Consent, Particular, Text
+from protocols.shipped_parts import MODELS
 from protocols.start_noise import StartNoise
 
 
-class ModelChoice(Part):
+class ModelChoice(FileModel):
     """The assistant that learns; Table I of the paper is the default.
 
     ``parameters`` are those of the shipped model, ``options`` those of somebody else's.
     """
 
-    use: shipped_or_factory("lad") = "lad"  # type: ignore[valid-type]
+    use: shipped_or_factory(*MODELS) = "lad"  # type: ignore[valid-type]
     parameters: LADParameters = LADParameters()
     options: Options = Field(default_factory=dict)
 
     @model_validator(mode="after")
     def _options_are_for_others(self) -> Self:
-        if self.use == "lad" and self.options:
+        if self.use in MODELS and self.options:
             raise ValueError("options are for a model of your own; lad takes parameters")
         return self
 
 
-class LaserSettings(Part):
+CasterName = Literal["sweep", "pybullet"]
+
+
+class LaserSettings(FileModel):
     """The simulated laser: rays over 240 degrees, and who casts them.
 
     Attributes
@@ -43,10 +48,10 @@ class LaserSettings(Part):
     """
 
     rays: Annotated[int, Field(ge=21, le=2000)] = 180
-    caster: Literal["sweep", "pybullet"] = "sweep"
+    caster: CasterName = "sweep"
 
 
-class StudyProtocol(Part):
+class StudyProtocol(FileModel):
     """A study: its people, its conditions, its laps in order, and what it declares in advance.
 
     Attributes
@@ -67,6 +72,15 @@ class StudyProtocol(Part):
         The simulated laser.
     start_noise
         How exactly the chair is put at the start.
+    hold_s
+        How long a driver's last command stays in force without a new one, in s; then the chair is
+        told to stand.
+    consent
+        Shown, and agreed to, before anything else; null for none.
+    demographics
+        What participants are asked about themselves before the first lap.
+    debrief
+        Shown after everything else; null for none.
     """
 
     schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
@@ -83,13 +97,15 @@ class StudyProtocol(Part):
     control_period_s: Annotated[float, Field(ge=0.02, le=0.5)] = 0.1
     laser: LaserSettings = LaserSettings()
     start_noise: StartNoise = StartNoise()
+    hold_s: Annotated[float, Field(gt=0, le=5)] = 0.3
+    consent: Consent | None = None
+    demographics: tuple[Particular, ...] = ()
+    debrief: Text | None = None
 
     @model_validator(mode="after")
     def _parts_agree(self) -> Self:
-        taught = self.model.use != "lad"  # what a model of one's own knows is not ours to say
-        check_consistency(self.conditions, self.laps, self.analyses, taught=taught)
+        taught = self.model.use not in MODELS  # what a model of one's own knows is not ours to say
+        check_consistency(
+            self.conditions, self.laps, self.analyses, cohort=self.cohort, taught=taught
+        )
         return self
-
-    def condition_of(self, lap: int) -> Condition:
-        """Return the condition of a lap, counted from 0."""
-        return self.conditions[self.laps[lap].condition]

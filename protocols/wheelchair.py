@@ -28,5 +28,8 @@ REAR = 0.23
 LASER_AHEAD = 0.60
 """The laser's mounting point ahead of the driven axle, m."""
 
+LASER_RANGE = 4.0
+"""A laser reading from here on means that nothing returned, m."""
+
 LASER_HEIGHT = 0.30
 """The laser's height above the floor, m: anything lower is not seen."""

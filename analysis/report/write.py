@@ -9,7 +9,7 @@ from analysis.report.page import build_page
 from analysis.report.render import render
 from analysis.results import analyse
 from analysis.statistics import statistics_json
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.record.atomic import partial_beside
 from protocols.record.reader import open_study
 

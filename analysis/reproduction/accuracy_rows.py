@@ -7,7 +7,7 @@ import pandas as pd
 
 from analysis.reproduction.accuracy import Spread, spread
 from analysis.reproduction.anticipation import leads
-from analysis.reproduction.rows import Kind, Row
+from analysis.reproduction.row import Kind, Row
 from analysis.reproduction.teaching import Run
 from analysis.reproduction.tolerances import judged
 

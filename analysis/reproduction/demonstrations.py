@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lad.inputs import INPUT_NAMES
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.record.reader import Study
 
 

@@ -6,7 +6,7 @@ from typing import Any
 import pandas as pd
 
 from analysis.paper import PAPER
-from analysis.reproduction.rows import Row
+from analysis.reproduction.row import Row
 from analysis.reproduction.tolerances import judged
 
 SECTION = "Autonomous driver: lap times (IV.A, IV.E)"

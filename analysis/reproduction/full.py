@@ -4,16 +4,16 @@ from pathlib import Path
 
 from analysis.report.blocks import Section
 from analysis.reproduction.generalisation import evidence as elsewhere
-from analysis.reproduction.generalisation.rows import generalisation_rows
+from analysis.reproduction.generalisation.course_rows import generalisation_rows
 from analysis.reproduction.generalisation.section import generalisation_section
 from analysis.reproduction.generalisation.tables import course_table, section_table
 from analysis.reproduction.robustness import evidence as robustness
 from analysis.reproduction.robustness.cost import costs
 from analysis.reproduction.robustness.evidence import Say
-from analysis.reproduction.robustness.rows import robustness_rows
 from analysis.reproduction.robustness.section import robustness_section
 from analysis.reproduction.robustness.table import variant_table
-from analysis.reproduction.rows import Row
+from analysis.reproduction.robustness.variant_rows import robustness_rows
+from analysis.reproduction.row import Row
 
 
 def full_sections(

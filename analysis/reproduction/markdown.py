@@ -4,8 +4,8 @@ from collections.abc import Iterable, Sequence
 
 from analysis.report.blocks import Page
 from analysis.reproduction.page import by_section
-from analysis.reproduction.rows import Row
-from analysis.reproduction.words import SAID, interval_of, number_of, tolerance_of
+from analysis.reproduction.printed import VERDICT_TEXT, interval_of, number_of, tolerance_of
+from analysis.reproduction.row import Row
 
 _HEAD = ("quantity", "unit", "paper", "ours", "n", "interval", "tolerance", "kind", "verdict")
 
@@ -36,5 +36,5 @@ def _cells(row: Row) -> tuple[str, ...]:
         interval_of(row),
         tolerance_of(row),
         row.kind,
-        SAID[row.verdict],
+        VERDICT_TEXT[row.verdict],
     )

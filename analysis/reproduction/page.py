@@ -15,14 +15,14 @@ from analysis.report.blocks import (
     Table,
     table,
 )
-from analysis.report.words import NOTHING, plural
+from analysis.report.numbers import NOTHING, plural
 from analysis.reproduction.evidence import Evidence
-from analysis.reproduction.rows import Kind, Row
+from analysis.reproduction.printed import VERDICT_TEXT, interval_of, number_of, tolerance_of
+from analysis.reproduction.row import Kind, Row
 from analysis.reproduction.sections.accuracy import accuracy_section
 from analysis.reproduction.sections.driver import driver_section
 from analysis.reproduction.sections.people import people_section
 from analysis.reproduction.sections.reading import reading_section
-from analysis.reproduction.words import SAID, interval_of, number_of, tolerance_of
 
 
 def build_page(evidence: Evidence, rows: Sequence[Row], further: Sequence[Section]) -> Page:
@@ -103,7 +103,7 @@ def _table(section: str, rows: Sequence[Row]) -> Table:
         Shown("interval", lambda r: interval_of(known[r["quantity"]])),
         Shown("tolerance", lambda r: tolerance_of(known[r["quantity"]])),
         Shown("kind", lambda r: r["kind"], words=True),
-        Shown("verdict", lambda r: SAID[r["verdict"]] or NOTHING, words=True),
+        Shown("verdict", lambda r: VERDICT_TEXT[r["verdict"]] or NOTHING, words=True),
     ]
     caption = f"{section}. {plural(len(rows), 'quantity', 'quantities')}."
     beside_the_paper = any(row.paper is not None or row.tolerance is not None for row in rows)

@@ -7,7 +7,7 @@ import pandas as pd
 from analysis.frames import StudyFrames
 from analysis.outcomes import by_participant
 from analysis.paper import PAPER
-from analysis.reproduction.rows import Row
+from analysis.reproduction.row import Row
 from analysis.reproduction.tolerances import judged
 from analysis.stats.describe import describe
 from analysis.stats.mean_difference import mean_difference

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from analysis.reproduction.rows import Row, Rule
+from analysis.reproduction.row import Row, Rule
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,8 +14,8 @@ from analysis.reproduction.evidence import Evidence, gather
 from analysis.reproduction.markdown import markdown
 from analysis.reproduction.page import build_page
 from analysis.reproduction.people_rows import people_rows
-from analysis.reproduction.rows import Row
-from protocols.errors import InputError
+from analysis.reproduction.row import Row
+from protocols.files.errors import InputError
 from protocols.record.atomic import partial_beside
 
 PAGE = "reproduction"

@@ -12,12 +12,12 @@ import joblib
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.arbitration import ARBITRATIONS
-from harness.clock import VirtualClock
-from harness.lap import Cast, Ending, Lap, Rules, Step
-from harness.limitation import right_turn_limit, unlimited
-from harness.seeds import stream
-from harness.world import BulletWorld
+from harness.session.arbitration import ARBITRATIONS
+from harness.session.clock import VirtualClock
+from harness.session.lap import Ending, Lap, LapParts, Rules, Step
+from harness.session.limitation import right_turn_limit, unlimited
+from harness.session.seeds import generator
+from harness.world.bullet_world import BulletWorld
 from lad.assistant import NO_ASSISTANCE, Assistance
 from participants.cohort import draw_person
 from participants.registry import make_driver
@@ -44,8 +44,8 @@ class Pair:
     limited_done: bool
 
 
-class _Nobody:
-    """An assistant who is not there."""
+class _NoModel:
+    """A model that never helps."""
 
     def start_lap(self) -> None:
         """Nothing to forget."""
@@ -86,17 +86,17 @@ class PairTrack:
 
     def drive(self, number: int, traits: Traits) -> Pair:
         """Drive both laps as participant ``number`` of the study with these traits."""
-        rng = stream(self._seed, number, "driver")
+        rng = generator(self._seed, number, "driver")
         driver = make_driver("human", DriverSetup(self._course, rng, traits))
-        cast = Cast(driver, _Nobody(), _Nobody())
-        *_, baseline, limited = (self._lap(number, lap, cast) for lap in range(self._first, 3))
+        parts = LapParts(driver, None, _NoModel())
+        *_, baseline, limited = (self._lap(number, lap, parts) for lap in range(self._first, 3))
         return Pair(
             baseline.t, limited.t, baseline.reason == "finished", limited.reason == "finished"
         )
 
-    def _lap(self, number: int, lap: int, cast: Cast) -> Ending:
-        self._world.reset(stream(self._seed, number, f"lap {lap}/world"))
-        cast.driver.start_lap(lap, stream(self._seed, number, f"lap {lap}/driver"))
+    def _lap(self, number: int, lap: int, parts: LapParts) -> Ending:
+        self._world.reset(generator(self._seed, number, f"lap {lap}/world"))
+        parts.driver.start_lap(lap, generator(self._seed, number, f"lap {lap}/driver"))
         rules = Rules(
             limitation=LIMITATIONS[lap],
             assistant="none",
@@ -105,13 +105,13 @@ class PairTrack:
             training=False,
             time_limit_s=self._time_limit or self._laps[lap].time_limit_s,
         )
-        race = Lap(self._world, cast, rules, GateCounter(self._course))
+        race = Lap(self._world, parts, rules, GateCounter(self._course))
         return race.drive(_NoRecord(), VirtualClock())
 
 
 def person_traits(cohort: Cohort, seed: int, number: int) -> Traits:
     """Return the traits of a participant of the study, the same as its sessions draw."""
-    return draw_person(cohort, stream(seed, number, "person")).traits
+    return draw_person(cohort, generator(seed, number, "person")).traits
 
 
 def patient(traits: Traits) -> Traits:

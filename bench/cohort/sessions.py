@@ -7,9 +7,10 @@ from pathlib import Path
 import pandas as pd
 from cohort.grid import Cell, overrides
 
-from harness.plan import Plan
-from harness.session import Session
-from harness.world import BulletWorld
+from harness.session.parts import make_parts
+from harness.session.session import Session
+from harness.session.study_run import StudyRun
+from harness.world.bullet_world import BulletWorld
 from participants.population import Marginal
 from protocols.cohort import Cohort
 from protocols.load import resolve_study
@@ -25,11 +26,13 @@ KEPT = (
 """What is kept of a lap's row."""
 
 
-def plan_of(cell: Cell, solved: Mapping[str, Marginal]) -> Plan:
+def run_of(cell: Cell, solved: Mapping[str, Marginal]) -> StudyRun:
     """Return the shipped study with a cell's people."""
     study = resolve_study("four-lap")
     cohort = Cohort.model_validate({"traits": overrides(cell, solved)})
-    return Plan(replace(study, protocol=study.protocol.model_copy(update={"cohort": cohort})), SEED)
+    return StudyRun(
+        replace(study, protocol=study.protocol.model_copy(update={"cohort": cohort})), SEED
+    )
 
 
 def laps_of(
@@ -54,7 +57,7 @@ def laps_of(
     known = pd.read_csv(keep) if keep.exists() else pd.DataFrame(columns=["number"])
     missing = sorted(set(range(1, people + 1)) - set(known["number"]))
     for i in range(0, len(missing), 20):
-        fresh = pd.DataFrame(list(_rows(plan_of(cell, solved), missing[i : i + 20])))
+        fresh = pd.DataFrame(list(_rows(run_of(cell, solved), missing[i : i + 20])))
         known = fresh if known.empty else pd.concat([known, fresh], ignore_index=True)
         keep.parent.mkdir(parents=True, exist_ok=True)
         known.to_csv(keep, index=False)
@@ -79,10 +82,10 @@ def laps_of_study(folder: Path) -> pd.DataFrame:
     return laps.assign(number=laps["participant"].str[1:].astype(int))
 
 
-def _rows(plan: Plan, numbers: list[int]) -> Iterator[dict[str, object]]:
-    protocol = plan.study.protocol
-    world = BulletWorld(plan.study.course, protocol.laser, protocol.control_period_s)
+def _rows(run: StudyRun, numbers: list[int]) -> Iterator[dict[str, object]]:
+    protocol = run.study.protocol
+    world = BulletWorld(run.study.course, protocol.laser, protocol.control_period_s)
     for number in numbers:
-        for lap in Session(plan, number, world).run().laps:
+        for lap in Session(run, number, world, make_parts(run, number)).run().laps:
             yield {"number": number, **{name: getattr(lap.row, name) for name in KEPT}}
     world.close()

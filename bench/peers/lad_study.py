@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 from peers.shipped_lap import drive_shipped_lap
 
-from harness.world import BulletWorld
+from harness.world.bullet_world import BulletWorld
 from lad.command import Command
 from protocols.course.schema import Course
 from protocols.pose import Pose

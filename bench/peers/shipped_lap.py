@@ -8,14 +8,14 @@ import math
 import numpy as np
 from peers.simulator import Simulator, bearings
 
-from harness.arbitration import takeover
-from harness.clearance import box_table, clearance
-from harness.clock import VirtualClock
-from harness.lap import Cast, Lap, Rules
-from harness.lap_log import LapLog
-from harness.limitation import right_turn_limit
-from harness.safeguard import Safeguard
-from harness.world import Observation, World
+from harness.session.arbitration import takeover
+from harness.session.clock import VirtualClock
+from harness.session.lap import Lap, LapParts, Rules
+from harness.session.lap_log import LapLog
+from harness.session.limitation import right_turn_limit
+from harness.world.clearance import box_table, clearance
+from harness.world.safeguard import Safeguard
+from harness.world.world import Observation, World
 from lad.assistant import NO_ASSISTANCE, Assistance
 from lad.command import Command
 from lad.inputs import N_SEGMENTS
@@ -43,7 +43,7 @@ class Nobody:
 def drive_shipped_lap(world: World, course: Course, time_limit_s: float) -> float:
     """Drive and record one lap, at most so long; return its length in simulated seconds."""
     driver = autonomous_driver(DriverSetup(course=course, rng=np.random.default_rng(0)))
-    cast = Cast(driver=driver, demonstrator=Nobody(), model=Nobody())
+    cast = LapParts(driver=driver, demonstrator=Nobody(), model=Nobody())
     rules = Rules(
         limitation=right_turn_limit(0.15),
         assistant="none",

@@ -8,8 +8,8 @@ from typing import Annotated
 import typer
 from typer.exceptions import TyperException
 
-from harness.cli import check, listing, replay, report, reproduce, run, validate
-from protocols.errors import InputError
+from harness.cli import check, listing, recover, replay, report, reproduce, run, validate
+from protocols.files.errors import InputError
 
 app = typer.Typer(
     name="lad-study",
@@ -52,6 +52,7 @@ app.command("reproduce")(reproduce.reproduce)
 app.command("replay")(replay.replay)
 app.command("validate")(validate.validate)
 app.command("check")(check.check)
+app.command("recover")(recover.recover)
 app.command("protocols")(listing.protocols)
 app.command("courses")(listing.courses)
 app.command("show")(listing.show)

@@ -2,7 +2,7 @@
 
 import os
 
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 
 def cores() -> int:

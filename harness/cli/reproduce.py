@@ -8,7 +8,7 @@ import typer
 
 from harness.cli.console import complain, progress_line, say
 from harness.cli.options import check_least, cores
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 if TYPE_CHECKING:
     from analysis.reproduction.write import Further
@@ -49,9 +49,9 @@ def reproduce(
 
 
 def _reproduce(folder: Path, seed: int, jobs: int, course: str | None, *, full: bool) -> int:
-    from harness.crew import get_ready
+    from harness.running.open_workers import warm_up_workers
 
-    get_ready()  # first: workers start while this process reads the protocols
+    warm_up_workers()  # first: workers start while this process reads the protocols
     from harness.cli.progress import counted_sessions
     from harness.reproduction.studies import experiments, run_experiments
     from protocols.load import load_course
@@ -87,7 +87,7 @@ def _run_further(planned: "Sequence[Experiment]", jobs: int) -> tuple[str, ...]:
 
 def _write(folder: Path, jobs: int, *, full: bool) -> None:
     from analysis.reproduction.write import write_reproduction
-    from harness.cli.rows import print_rows
+    from harness.cli.reproduction_table import print_rows
 
     with progress_line() as tell:
         further = _full_sections(jobs, tell) if full else None

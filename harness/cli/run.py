@@ -9,7 +9,7 @@ from harness.cli.console import complain, progress_line, say
 from harness.cli.options import check_least, cores
 
 if TYPE_CHECKING:
-    from harness.runner import Outcome
+    from harness.running.runner import Outcome
 
 
 def run(
@@ -73,20 +73,25 @@ def _run(
     *,
     retry_failed: bool,
 ) -> "tuple[Path, Outcome]":
-    from harness.crew import get_ready
+    from harness.running.open_workers import warm_up_workers
 
     if scheduler is None:
-        get_ready()  # first: workers start while this process reads the protocol
+        warm_up_workers()  # first: workers start while this process reads the protocol
     from harness.cli.progress import counted_sessions
-    from harness.plan import Plan
-    from harness.runner import run_study
+    from harness.running.runner import run_study
+    from harness.session.study_run import StudyRun
     from protocols.load import resolve_study
 
     study = resolve_study(protocol, course=course, participants=participants)
     folder = out or Path("studies") / f"{study.protocol.name}-seed{seed}"
     with counted_sessions() as tell:
         outcome = run_study(
-            Plan(study, seed), folder, jobs, tell, scheduler=scheduler, retry_failed=retry_failed
+            StudyRun(study, seed),
+            folder,
+            jobs,
+            tell,
+            scheduler=scheduler,
+            retry_failed=retry_failed,
         )
     return folder, outcome
 
@@ -104,7 +109,7 @@ def _failures(folder: Path, outcome: "Outcome") -> str:
 
 def _report(folder: Path) -> None:
     from analysis.report import write_report
-    from harness.cli.table import print_lap_times
+    from harness.cli.lap_time_table import print_lap_times
 
     with progress_line() as tell:
         page = write_report(folder, tell)

@@ -5,14 +5,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from harness.model import make_model
-from harness.plan import Plan
 from harness.reproduction.studies import STUDIES, Experiment, Progress, run_experiment
+from harness.session.model import make_model
+from harness.session.study_run import StudyRun
 from protocols.condition import Condition
 from protocols.course.schema import Course
-from protocols.errors import InputError
+from protocols.files.errors import InputError
+from protocols.laps import PlannedLap
 from protocols.load import load_course, resolve_study
-from protocols.plan import PlannedLap
 from protocols.record.session import MODEL_FILE
 from protocols.record.sessions import SESSIONS
 from protocols.resolved import ResolvedStudy
@@ -100,7 +100,7 @@ def run_full(
 
 
 def _experiment(out: Path, seed: int, kind: str, name: str, study: ResolvedStudy) -> Experiment:
-    return Experiment(Plan(study, seed), out / STUDIES / kind / name)
+    return Experiment(StudyRun(study, seed), out / STUDIES / kind / name)
 
 
 def _taught(laps: ResolvedStudy, variant: Variant) -> ResolvedStudy:

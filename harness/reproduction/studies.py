@@ -5,9 +5,9 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 
-from harness.plan import Plan
-from harness.runner import Tell, run_study
-from protocols.errors import InputError
+from harness.running.runner import Tell, run_study
+from harness.session.study_run import StudyRun
+from protocols.files.errors import InputError
 from protocols.load import resolve_study
 from protocols.record.atomic import is_partial, remove_partials
 from protocols.record.folder import refuse_another_study
@@ -28,7 +28,7 @@ Progress = Callable[[str], AbstractContextManager[Tell]]
 class Experiment:
     """A study of a reproduction, and where it is recorded."""
 
-    plan: Plan
+    run: StudyRun
     folder: Path
 
 
@@ -51,8 +51,8 @@ def experiments(
     InputError
         When a protocol cannot be used.
     """
-    plans = (Plan(resolve_study(name), seed) for name in protocols)
-    return tuple(Experiment(plan, out / STUDIES / plan.study.protocol.name) for plan in plans)
+    runs = (StudyRun(resolve_study(name), seed) for name in protocols)
+    return tuple(Experiment(run, out / STUDIES / run.study.protocol.name) for run in runs)
 
 
 def run_experiments(
@@ -100,8 +100,8 @@ def run_experiment(experiment: Experiment, jobs: int, progress: Progress) -> str
     OSError
         When something cannot be written; what was finished is kept.
     """
-    with progress(experiment.plan.study.protocol.name) as tell:
-        outcome = run_study(experiment.plan, experiment.folder, jobs, tell, retry_failed=True)
+    with progress(experiment.run.study.protocol.name) as tell:
+        outcome = run_study(experiment.run, experiment.folder, jobs, tell, retry_failed=True)
     if not outcome.failed:
         return None
     reason = failure_reason(experiment.folder, outcome.failed[0])
@@ -122,7 +122,7 @@ def refuse_other_folder(out: Path, planned: Sequence[Experiment]) -> None:
     if out.exists() and not out.is_dir():
         raise InputError(f"{out}: is a file; allowed: a new folder, or this reproduction's")
     for experiment in planned:
-        refuse_another_study(experiment.folder, experiment.plan.study, experiment.plan.seed)
+        refuse_another_study(experiment.folder, experiment.run.study, experiment.run.seed)
     if (planned[0].folder / STUDY_FILE).exists():
         return
     for place, allowed in ((out, {STUDIES}), (out / STUDIES, {planned[0].folder.name})):

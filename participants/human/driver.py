@@ -4,12 +4,12 @@ import numpy as np
 
 from lad.command import Command
 from participants.cohort import typical_traits
-from participants.human.at_the_wheel import AtTheWheel
-from participants.human.authority import Authority
-from participants.human.doubt import Doubt
+from participants.human.hesitation import Hesitation
+from participants.human.lap_behaviour import LapBehaviour
 from participants.human.patience import Patience
 from participants.human.practice import skill
 from participants.human.room import KnownRoom, known_room
+from participants.human.turn_response import TurnResponse
 from participants.options import NoOptions, read_options
 from participants.setup import DriverSetup
 from participants.sight import Sight
@@ -30,19 +30,21 @@ class HumanDriver:
     def __init__(self, traits: Traits, room: KnownRoom) -> None:
         self._traits = traits
         self._room = room
-        self._authority = Authority(traits.adaptation_per_s)
-        self._doubt = Doubt(traits.limit_pause_s, traits.practice_exponent, self._authority)
+        self._response = TurnResponse(traits.adaptation_per_s)
+        self._hesitation = Hesitation(
+            traits.limit_pause_s, traits.practice_exponent, self._response
+        )
         self.start_lap(0, np.random.default_rng(0))
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:
         """Begin a lap; what was learnt about the chair stays."""
-        self._authority.start_lap()
-        self._doubt.start_lap()
+        self._response.start_lap()
+        self._hesitation.start_lap()
         skilled = skill(self._traits, lap)
         (for_patience,) = rng.spawn(1)
         self._patience = Patience(self._traits.patience_s, for_patience)
-        self._now = AtTheWheel(
-            self._traits, skilled, self._authority, self._doubt, room=self._room, rng=rng
+        self._now = LapBehaviour(
+            self._traits, skilled, self._response, self._hesitation, room=self._room, rng=rng
         )
 
     def act(self, sight: Sight) -> Command:

@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from participants.human.corners import sharp_corners
-from participants.planning.route import Route, plan
+from participants.planning.route import Route, plan_route
 from participants.planning.surroundings import known_raster
 from protocols.course.occupancy import Occupancy
 from protocols.course.schema import Course
@@ -48,4 +48,4 @@ class KnownRoom:
 @lru_cache(maxsize=16)
 def known_room(course: Course) -> KnownRoom:
     """Return a course as a person knows it, worked out once for each course."""
-    return KnownRoom(plan(course), known_raster(course))
+    return KnownRoom(plan_route(course), known_raster(course))

@@ -4,10 +4,10 @@ import math
 from dataclasses import dataclass
 
 from lad.command import Command
-from participants.human.authority import Authority
 from participants.human.corners import Corner
 from participants.human.practice import Skill
 from participants.human.room import KnownRoom
+from participants.human.turn_response import TurnResponse
 from participants.planning.route import Route
 from participants.traits import Traits
 from protocols.pose import Pose
@@ -82,16 +82,16 @@ def aiming_distance(traits: Traits, speed: float) -> float:
 
 
 def intend(
-    traits: Traits, skilled: Skill, authority: Authority, route: Route, now: Situation
+    traits: Traits, skilled: Skill, response: TurnResponse, route: Route, now: Situation
 ) -> Command:
     """Return what a person would have the chair do on a free way.
 
     The turn rate may lie beyond the chair's: a stick is pushed to its end.
     """
-    believed = authority.of(now.error)
+    believed = response.of(now.error)
     cruising = traits.preferred_speed_m_s * skilled.way
     turning = min(cruising, traits.corner_speed_m_s * skilled.corner * believed)
-    v = min(cruising, _for_bends(authority, route, now, turning), _for_corner(now, turning))
+    v = min(cruising, _for_bends(response, route, now, turning), _for_corner(now, turning))
     straying = (abs(now.error) - ALIGNED) / (ASTRAY - ALIGNED)
     v = v + (min(v, turning) - v) * min(max(straying, 0.0), 1.0)
     # Making up for a chair that turns less than asked, as far as this person does.
@@ -103,13 +103,13 @@ def intend(
     return Command(v, min(max(w, -hardest), hardest))
 
 
-def _for_bends(authority: Authority, route: Route, now: Situation, slowest: float) -> float:
+def _for_bends(response: TurnResponse, route: Route, now: Situation, slowest: float) -> float:
     """Return the speed at which the chair still turns with the way ahead, m/s."""
     ahead = max(1.5 * now.speed, 0.8)
     bend = route.turn(now.arc, now.arc + ahead) / ahead
     if abs(bend) < 1e-6:
         return math.inf
-    return max(RESERVE * MAX_TURN_RATE * authority.of(bend) / abs(bend), slowest)
+    return max(RESERVE * MAX_TURN_RATE * response.of(bend) / abs(bend), slowest)
 
 
 def _for_corner(now: Situation, turning: float) -> float:

@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import Field
 
 from lad.command import STILL, Command
-from participants.driver import Driver
+from participants.driver import Driver, kind_of
 from participants.options import Options, read_options
 from participants.setup import ImpairmentSetup
 from participants.sight import Sight
@@ -88,6 +88,7 @@ class Tremor:
         self, driver: Driver, severity: float, frequency: float | None, rng: np.random.Generator
     ) -> None:
         self._driver = driver
+        self.kind = kind_of(driver)
         self._rng = rng
         line, drawn = rng.uniform(0.0, math.pi), rng.uniform(LOWEST, HIGHEST)
         size = amplitude(severity)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from lad.command import Command
-from participants.driver import Driver
+from participants.driver import Driver, kind_of
 from participants.options import NoOptions, read_options
 from participants.setup import ImpairmentSetup
 from participants.sight import Sight
@@ -29,6 +29,7 @@ class Weakness:
 
     def __init__(self, driver: Driver, severity: float) -> None:
         self._driver = driver
+        self.kind = kind_of(driver)
         self._share = 1.0 - severity * (1.0 - LEAST)
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:

@@ -13,7 +13,7 @@ from protocols.course.centreline import Centreline
 from protocols.course.gates import GateCounter
 from protocols.course.occupancy import occupancy
 from protocols.course.schema import Course
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.pose import Pose
 
 SPACING = 0.05
@@ -107,7 +107,7 @@ class Route:
 
 
 @lru_cache(maxsize=16)
-def plan(course: Course, cell: float = 0.1) -> Route:
+def plan_route(course: Course, cell: float = 0.1) -> Route:
     """Plan a way through a course, once for each course.
 
     Parameters

@@ -8,7 +8,7 @@ from scipy.sparse import csgraph
 from protocols.course.gates import crossing
 from protocols.course.occupancy import Occupancy
 from protocols.course.schema import Course, Gate
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.wheelchair import WIDTH
 
 COMFORT = 0.8

@@ -15,9 +15,9 @@ from protocols.course.gates import GateCounter, forward
 from protocols.course.obstacles import FloorPlan, floor_plan, obstacle_boxes
 from protocols.course.occupancy import Occupancy, occupancy
 from protocols.course.schema import Course, Gate, Point
-from protocols.document import spoken
-from protocols.errors import InputError
-from protocols.fault import Fault
+from protocols.files.document import spoken
+from protocols.files.errors import InputError
+from protocols.files.fault import Fault
 
 NEARBY = 1.0
 """How far from the start the centreline may begin, m."""

@@ -7,8 +7,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from protocols.fault import Fault, InconsistentError, Location
-from protocols.part import Name, Part
+from protocols.files.fault import Fault, InconsistentError, Location
+from protocols.files.file_model import FileModel, Name
 
 Metres = Annotated[float, Field(ge=-1000, le=1000)]
 Point = tuple[Metres, Metres]
@@ -18,7 +18,7 @@ MIN_STEP = 1e-3
 """Points of a polyline closer than this count as the same, m."""
 
 
-class Wall(Part):
+class Wall(FileModel):
     """A wall along a polyline; its faces stand half a thickness to either side."""
 
     name: Name
@@ -28,7 +28,7 @@ class Wall(Part):
     height: Annotated[float, Field(gt=0, le=5)] = 1.2
 
 
-class Furniture(Part):
+class Furniture(FileModel):
     """A box on the floor: centre, heading of its length, and size in metres."""
 
     name: Name
@@ -40,7 +40,7 @@ class Furniture(Part):
     height: Annotated[float, Field(gt=0, le=5)] = 0.8
 
 
-class Start(Part):
+class Start(FileModel):
     """Where a lap starts: the midpoint of the driven axle and the heading in radians."""
 
     x: Metres
@@ -48,7 +48,7 @@ class Start(Part):
     heading: float
 
 
-class Gate(Part):
+class Gate(FileModel):
     """A line to cross; gates count only in their order."""
 
     name: Name
@@ -56,7 +56,7 @@ class Gate(Part):
     right: Point
 
 
-class Section(Part):
+class Section(FileModel):
     """A stretch of the centreline, up to an arc length in metres (the last one: to the end)."""
 
     name: Name
@@ -64,7 +64,7 @@ class Section(Part):
     until: Annotated[float, Field(gt=0)] | None = None
 
 
-class Course(Part):
+class Course(FileModel):
     """Walls, furniture, start, ordered gates and a centreline cut into labelled sections.
 
     The centreline is for metrics and for drivers with a map; it ends at the last gate.

@@ -5,16 +5,19 @@ from pathlib import Path
 
 import pyarrow as pa
 
-from protocols.errors import InputError
-from protocols.record.again import run_again
+from protocols.files.errors import InputError
+from protocols.order import laps_of
 from protocols.record.codebook import CODEBOOK_FILE, codebook_json
+from protocols.record.column import SCHEMA_VERSIONS, arrow_schema, brought_up_to_date
 from protocols.record.header import STUDY_FILE, StudyHeader, read_header
 from protocols.record.identity import study_digest
+from protocols.record.journal import journal_path
 from protocols.record.logs import failures
 from protocols.record.merge import STUDY_TABLES, session_rows
 from protocols.record.parquet import parquet_shape, read_parquet
 from protocols.record.reader import off_scale, open_study
-from protocols.record.rows import participant_id
+from protocols.record.resume import resume_command
+from protocols.record.rows import participant_id, participant_number, questions_follow
 from protocols.record.session import (
     LAPS_FILE,
     MODEL_FILE,
@@ -23,8 +26,8 @@ from protocols.record.session import (
     steps_file,
 )
 from protocols.record.sessions import SESSIONS, read_manifest, session_faults, session_folders
-from protocols.record.steps import STEP_SCHEMA
-from protocols.record.tables import LAP_SCHEMA, PARTICIPANT_SCHEMA, SURVEY_SCHEMA
+from protocols.record.steps import STEP_COLUMNS
+from protocols.record.tables import LAP_COLUMNS, PARTICIPANT_COLUMNS, SURVEY_COLUMNS
 from protocols.resolved import ResolvedStudy
 
 Tell = Callable[[str], None]
@@ -44,10 +47,10 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
         When the folder is no study directory at all.
     """
     header = read_header(folder)
-    if header.seed is None:
+    if header.origin == "elsewhere":
         return tuple(_foreign_faults(folder))
     sessions = session_folders(folder)
-    again = f"`{run_again(folder, header)}`"
+    again = f"`{resume_command(folder, header)}`"
     faults = [
         *_header_faults(folder, header, again),
         *_missing_sessions(folder, header, sessions, again),
@@ -58,13 +61,23 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
         if tell is not None:
             tell(f"Session {number} of {len(sessions)}")
         found = list(_session_faults(session, header))
-        faults += [f"{fault}; remove {session}, then {again} makes it anew" for fault in found]
+        faults += [f"{fault}; {_mend(header, session, again)}" for fault in found]
         if not found:
             sound.append(session.name)
     # A damaged session cannot be compared with the tables: its own faults say enough.
     if len(sound) == len(sessions):
         faults += _table_faults(folder, sound, again)
     return tuple(faults)
+
+
+def _mend(header: StudyHeader, session: Path, again: str) -> str:
+    """Return what to do about a damaged session: only a simulated one may be deleted."""
+    if header.origin == "simulated":
+        return f"remove {session}, then {again} makes it anew"
+    journal = journal_path(session.parents[1], session.name)
+    if journal.is_file():
+        return f"`lad-study recover {session.parents[1]}` makes it again from {journal}"
+    return "it is a living person's and has no journal: keep it, and mend it by hand"
 
 
 def _foreign_faults(folder: Path) -> Iterator[str]:
@@ -137,15 +150,15 @@ def _session_faults(session: Path, header: StudyHeader) -> Iterator[str]:
         yield f"{session}: a session of another study (its study's digest differs)"
         return
     try:
-        yield from _content_faults(session, header.study)
+        yield from _content_faults(session, header.study, header.seed or 0)
     except InputError as error:
         yield str(error)
 
 
-def _content_faults(session: Path, study: ResolvedStudy) -> Iterator[str]:
-    participant = session_rows(session / PARTICIPANT_FILE, PARTICIPANT_SCHEMA)
-    laps = session_rows(session / LAPS_FILE, LAP_SCHEMA)
-    surveys = session_rows(session / SURVEYS_FILE, SURVEY_SCHEMA)
+def _content_faults(session: Path, study: ResolvedStudy, seed: int) -> Iterator[str]:
+    participant = session_rows(session / PARTICIPANT_FILE, PARTICIPANT_COLUMNS)
+    laps = session_rows(session / LAPS_FILE, LAP_COLUMNS)
+    surveys = session_rows(session / SURVEYS_FILE, SURVEY_COLUMNS)
     for table in (participant, laps, surveys):
         strangers = set(table["participant"].to_pylist()) - {session.name}
         if strangers:
@@ -154,7 +167,7 @@ def _content_faults(session: Path, study: ResolvedStudy) -> Iterator[str]:
     if driven != [laps.num_rows]:
         yield f"{session / LAPS_FILE}: {laps.num_rows} laps; the participant's row says {driven}"
     yield from _lap_faults(session, laps)
-    yield from _survey_faults(session, laps, surveys, study)
+    yield from _survey_faults(session, laps, surveys, study, seed)
 
 
 def _lap_faults(session: Path, laps: pa.Table) -> Iterator[str]:
@@ -170,23 +183,23 @@ def _lap_faults(session: Path, laps: pa.Table) -> Iterator[str]:
         if path.name not in listed:
             continue
         schema, recorded = parquet_shape(path)
-        if not schema.equals(STEP_SCHEMA):
-            yield f"{path}: its columns are not those of this version's record"
+        if not any(schema.equals(arrow_schema(STEP_COLUMNS, v)) for v in SCHEMA_VERSIONS):
+            yield f"{path}: its columns are not those of the record"
         if recorded != steps:
             yield f"{path}: {recorded} steps; the lap's row says {steps}"
 
 
 def _survey_faults(
-    session: Path, laps: pa.Table, surveys: pa.Table, study: ResolvedStudy
+    session: Path, laps: pa.Table, surveys: pa.Table, study: ResolvedStudy, seed: int
 ) -> Iterator[str]:
     """Compare the answers' rows with the questions the protocol asks after each lap."""
     there = list(zip(*(surveys[c].to_pylist() for c in ("lap", "instrument", "item")), strict=True))
-    planned = len(study.protocol.laps)
+    planned = dict(enumerate(laps_of(study.protocol, participant_number(session.name), seed)))
     wanted = [
         (row["lap"], instrument.name, item.id)
         for row in laps.select(["lap", "end_reason"]).to_pylist()
-        if row["end_reason"] != "withdrew" and row["lap"] < planned
-        for instrument, item in study.questions(row["lap"])
+        if questions_follow(row["end_reason"]) and row["lap"] in planned
+        for instrument, item in study.questions(planned[row["lap"]])
     ]
     if there != wanted:
         yield (
@@ -196,12 +209,13 @@ def _survey_faults(
 
 
 def _table_faults(folder: Path, participants: list[str], again: str) -> Iterator[str]:
-    for name, part, schema in STUDY_TABLES:
+    for name, part, columns in STUDY_TABLES:
         path = folder / name
-        rows = [session_rows(folder / SESSIONS / p / part, schema) for p in participants]
-        wanted = pa.concat_tables(rows) if rows else schema.empty_table()
+        rows = [session_rows(folder / SESSIONS / p / part, columns) for p in participants]
+        wanted = pa.concat_tables(rows) if rows else arrow_schema(columns).empty_table()
         try:
-            same = read_parquet(path).equals(wanted)
+            there = brought_up_to_date(read_parquet(path), columns)
+            same = there is not None and there.equals(wanted)
         except InputError as error:
             yield f"{error}; {again} makes it anew"
             continue

@@ -3,7 +3,7 @@
 import json
 from typing import Any
 
-from protocols.record.column import Column
+from protocols.record.column import SCHEMA_VERSION, Column
 from protocols.record.steps import STEP_COLUMNS
 from protocols.record.tables import LAP_COLUMNS, PARTICIPANT_COLUMNS, SURVEY_COLUMNS
 
@@ -19,7 +19,7 @@ TABLES: dict[str, tuple[Column, ...]] = {
 
 
 def codebook() -> dict[str, Any]:
-    """Return every table's columns: name, type, unit, description, allowed values, may be missing.
+    """Return every table's columns: name, type, unit, description, allowed values, and so on.
 
     Examples
     --------
@@ -27,7 +27,7 @@ def codebook() -> dict[str, Any]:
     'lap'
     """
     tables = {name: [_entry(c) for c in columns] for name, columns in TABLES.items()}
-    return {"schema": 1, "tables": tables}
+    return {"schema": SCHEMA_VERSION, "tables": tables}
 
 
 def codebook_json() -> str:
@@ -43,4 +43,5 @@ def _entry(column: Column) -> dict[str, Any]:
         "description": column.description,
         "allowed": column.allowed,
         "nullable": column.nullable,
+        "since": column.since,
     }

@@ -1,6 +1,7 @@
 """One column of the record: what it holds, in which unit, and which values are allowed."""
 
 from dataclasses import dataclass
+from typing import Literal, get_args
 
 import pyarrow as pa
 
@@ -23,6 +24,9 @@ class Column:
         Values or range in words, or "" where the type says it all.
     nullable
         Whether the value may be missing; the description says what missing means.
+    since
+        Version of the record that has it first; in an older record it is missing, so it must be
+        nullable.
     """
 
     name: str
@@ -31,8 +35,34 @@ class Column:
     unit: str = ""
     allowed: str = ""
     nullable: bool = False
+    since: int = 1
 
 
-def arrow_schema(columns: tuple[Column, ...]) -> pa.Schema:
-    """Return the Arrow schema of a table made of these columns, in their order."""
-    return pa.schema([pa.field(c.name, c.type, nullable=c.nullable) for c in columns])
+SchemaVersion = Literal[1, 2]
+
+SCHEMA_VERSION: SchemaVersion = 2
+"""Version of the record that is written; older ones are read."""
+
+SCHEMA_VERSIONS: tuple[SchemaVersion, ...] = get_args(SchemaVersion)
+
+
+def arrow_schema(columns: tuple[Column, ...], version: int = SCHEMA_VERSION) -> pa.Schema:
+    """Return the Arrow schema of a table of these columns, in their order, in a record version."""
+    return pa.schema(
+        [pa.field(c.name, c.type, nullable=c.nullable) for c in columns if c.since <= version]
+    )
+
+
+def brought_up_to_date(table: pa.Table, columns: tuple[Column, ...]) -> pa.Table | None:
+    """Return a table of any record version in this version's columns; None when it is none.
+
+    Columns that came later are missing throughout.
+    """
+    wanted = arrow_schema(columns)
+    if table.schema.equals(wanted):
+        return table
+    if not any(table.schema.equals(arrow_schema(columns, version)) for version in SCHEMA_VERSIONS):
+        return None
+    there = set(table.column_names)
+    arrays = [table[c.name] if c.name in there else pa.nulls(len(table), c.type) for c in columns]
+    return pa.Table.from_arrays(arrays, schema=wanted)

@@ -4,25 +4,35 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.record.atomic import is_partial, remove_partials, write_whole
 from protocols.record.codebook import CODEBOOK_FILE, codebook_json
-from protocols.record.header import STUDY_FILE, StudyHeader, header_of, read_header, write_header
+from protocols.record.header import (
+    STUDY_FILE,
+    Origin,
+    StudyHeader,
+    header_of,
+    read_header,
+    write_header,
+)
 from protocols.record.identity import differences, study_digest
 from protocols.record.logs import LOGS
 from protocols.record.sessions import SESSIONS, read_manifest, session_folders
 from protocols.resolved import ResolvedStudy
 
 _LOCK = ".lock"
+_COMMAND: dict[Origin, str] = {"simulated": "run"}
 _SHOWN = 5
 """How many differences between two studies are shown."""
 
 
-def open_folder(folder: Path, study: ResolvedStudy, seed: int) -> StudyHeader:
+def open_folder(
+    folder: Path, study: ResolvedStudy, seed: int, origin: Origin = "simulated"
+) -> StudyHeader:
     """Make a study directory, or check that one is this study's and tidy it up.
 
     Sessions that are there stay. A study can be enlarged; asking for fewer participants than are
-    planned there changes nothing. Nobody else may write into the folder meanwhile (``held``).
+    planned there changes nothing. Nobody else may write into the folder meanwhile (``locked``).
 
     Parameters
     ----------
@@ -32,6 +42,8 @@ def open_folder(folder: Path, study: ResolvedStudy, seed: int) -> StudyHeader:
         The study that is to be run there.
     seed
         Its seed.
+    origin
+        Whether synthetic or living people take part.
 
     Returns
     -------
@@ -44,10 +56,10 @@ def open_folder(folder: Path, study: ResolvedStudy, seed: int) -> StudyHeader:
         When the folder holds something else, or another study (shows the difference), or cannot
         be made; nothing in it is touched then.
     """
-    header = refuse_another_study(folder, study, seed)
+    header = refuse_another_study(folder, study, seed, origin)
     make_folder(folder)
     if header is None:
-        header = header_of(study, seed)
+        header = header_of(study, seed, origin)
         write_header(folder, header)  # first: a folder with anything else in it is refused
     for part in (SESSIONS, LOGS):
         (folder / part).mkdir(exist_ok=True)
@@ -58,7 +70,9 @@ def open_folder(folder: Path, study: ResolvedStudy, seed: int) -> StudyHeader:
     return header
 
 
-def refuse_another_study(folder: Path, study: ResolvedStudy, seed: int) -> StudyHeader | None:
+def refuse_another_study(
+    folder: Path, study: ResolvedStudy, seed: int, origin: Origin = "simulated"
+) -> StudyHeader | None:
     """Refuse a folder in which this study could not be run; write nothing.
 
     Returns
@@ -84,6 +98,11 @@ def refuse_another_study(folder: Path, study: ResolvedStudy, seed: int) -> Study
             f"{fault}; the sessions are this study's: remove {folder / STUDY_FILE}, and the same "
             "`lad-study run` writes it anew"
         ) from None
+    if header.origin != origin:
+        raise InputError(
+            f"{folder}: holds a study with origin {header.origin}, not {origin}; "
+            f"allowed: another folder, or `lad-study {_COMMAND.get(header.origin, 'report')}`"
+        )
     found = differences(header.study, header.seed, study, seed)
     if found:
         rest = len(found) - _SHOWN
@@ -110,7 +129,7 @@ def make_folder(folder: Path) -> None:
 
 
 @contextmanager
-def held(folder: Path) -> Iterator[None]:
+def locked(folder: Path) -> Iterator[None]:
     """Hold a study directory, made when it does not exist, until this run ends or dies.
 
     Whoever is going to write anything into it holds it first: of two runs that start at the same

@@ -1,44 +1,58 @@
 """The head of a study directory: ``study.yaml``."""
 
 import platform
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from protocols.course.schema import Course
-from protocols.document import parse
-from protocols.dump import to_yaml
-from protocols.errors import InputError
+from protocols.files.document import parse
+from protocols.files.dump import to_yaml
+from protocols.files.errors import InputError
+from protocols.files.file_model import FileModel
+from protocols.files.validation import validate
 from protocols.instrument import Instrument
-from protocols.part import Part
 from protocols.record.atomic import write_whole
+from protocols.record.column import SCHEMA_VERSION, SchemaVersion
 from protocols.record.identity import study_digest
 from protocols.resolved import ResolvedStudy
 from protocols.study import StudyProtocol
-from protocols.validation import validate
 from protocols.versions import package_versions
 
 STUDY_FILE = "study.yaml"
 
 
-class StudyHeader(Part):
+Origin = Literal["simulated", "live", "elsewhere"]
+"""Where a study comes from: synthetic participants here, living people here, or other programs."""
+
+
+def _origin_of_version_1(data: Mapping[str, Any]) -> Origin:
+    return "elsewhere" if data.get("seed") is None else "simulated"
+
+
+class StudyHeader(FileModel):
     """What a study directory says about itself.
 
     Attributes
     ----------
     protocol, course, instruments
         The study as it was resolved.
+    origin
+        Where the study comes from. A header of version 1 does not say: with a seed it was
+        simulated, without one recorded elsewhere.
     seed
-        None for a study that was not simulated.
+        None for a study that was recorded elsewhere.
     digest
         Of protocol, course, instruments and seed, not of the number of participants.
     versions, platform
         Of the run that made the directory; every session's manifest has its own.
     """
 
-    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    schema_version: Annotated[SchemaVersion, Field(alias="schema")] = SCHEMA_VERSION
     seed: Annotated[int, Field(ge=0)] | None = None
+    origin: Origin = Field(default_factory=_origin_of_version_1)
     digest: str | None = None
     platform: str | None = None
     versions: dict[str, str] = Field(default_factory=dict)
@@ -46,15 +60,22 @@ class StudyHeader(Part):
     instruments: tuple[Instrument, ...] = ()
     course: Course
 
+    @model_validator(mode="after")
+    def _a_seed_unless_elsewhere(self) -> Self:
+        if self.origin != "elsewhere" and self.seed is None:
+            raise ValueError(f"origin: {self.origin} needs a seed")
+        return self
+
     @property
     def study(self) -> ResolvedStudy:
         """The study, with everything it refers to."""
         return ResolvedStudy(self.protocol, self.course, self.instruments)
 
 
-def header_of(study: ResolvedStudy, seed: int) -> StudyHeader:
+def header_of(study: ResolvedStudy, seed: int, origin: Origin = "simulated") -> StudyHeader:
     """Return the head of a study that is about to be run here."""
     return StudyHeader(
+        origin=origin,
         seed=seed,
         digest=study_digest(study, seed),
         platform=platform.platform(),

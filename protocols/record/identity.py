@@ -2,14 +2,23 @@
 
 import hashlib
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
-from protocols.document import spoken
-from protocols.fault import Location
+from protocols.files.document import spoken
+from protocols.files.fault import Location
 from protocols.resolved import ResolvedStudy
 
 _ABSENT = object()
+
+
+_LATER: Mapping[str, Mapping[str, Any]] = {
+    "protocol": {"hold_s": 0.3, "consent": None, "demographics": [], "debrief": None},
+    "lap": {"break_s": 0.0},
+    "item": {"answer": "point", "lowest": None, "highest": None},
+}
+"""Fields that came after the first version, with their defaults. A study that does not use them
+is the study it was: its digest and its record stay the same."""
 
 
 def study_digest(study: ResolvedStudy, seed: int) -> str:
@@ -17,7 +26,7 @@ def study_digest(study: ResolvedStudy, seed: int) -> str:
 
     The number of participants is left out: a study can be enlarged.
     """
-    text = json.dumps(_identity(study, seed), sort_keys=True, separators=(",", ":"))
+    text = json.dumps(identity(study, seed), sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -29,22 +38,40 @@ def differences(
     Examples of an entry: ``seed: 0 there, 1 wanted``;
     ``protocol.conditions.limited.limitation.right_turn_rad_s: 0.15 there, 0.2 wanted``.
     """
-    pairs = _unequal(_identity(here, here_seed), _identity(wanted, wanted_seed), ())
+    return identity_differences(identity(here, here_seed), identity(wanted, wanted_seed))
+
+
+def identity_differences(here: Mapping[str, Any], wanted: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return in words how two studies' identities differ; empty when they do not."""
+    pairs = _unequal(here, wanted, ())
     return tuple(
         f"{spoken(where)}: {_shown(there)} there, {_shown(want)} wanted"
         for where, there, want in pairs
     )
 
 
-def _identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
+def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
+    """Return everything a session depends on besides the participant's number, as plain data."""
     protocol = study.protocol.model_dump(mode="json", by_alias=True)
     del protocol["cohort"]["participants"]
+    _leave_out_defaults(protocol, "protocol")
+    for lap in protocol["laps"]:
+        _leave_out_defaults(lap, "lap")
+    instruments = [i.model_dump(mode="json", by_alias=True) for i in study.instruments]
+    for item in (item for instrument in instruments for item in instrument["items"]):
+        _leave_out_defaults(item, "item")
     return {
         "seed": seed,
         "protocol": protocol,
         "course": study.course.model_dump(mode="json", by_alias=True),
-        "instruments": [i.model_dump(mode="json", by_alias=True) for i in study.instruments],
+        "instruments": instruments,
     }
+
+
+def _leave_out_defaults(data: dict[str, Any], kind: str) -> None:
+    for name, default in _LATER[kind].items():
+        if data.get(name) == default:
+            del data[name]
 
 
 def _unequal(there: Any, wanted: Any, where: Location) -> Iterator[tuple[Location, Any, Any]]:

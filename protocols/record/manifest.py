@@ -3,24 +3,25 @@
 import hashlib
 import json
 from collections.abc import Mapping
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import Field, ValidationError
 
-from protocols.part import Part
+from protocols.files.file_model import FileModel
+from protocols.record.column import SCHEMA_VERSION, SchemaVersion
 from protocols.versions import package_versions
 
 MANIFEST_FILE = "manifest.json"
 
 
-class FileEntry(Part):
+class FileEntry(FileModel):
     """Size in bytes and SHA-256 of one file."""
 
     bytes: Annotated[int, Field(ge=0)]
     sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
 
 
-class Manifest(Part):
+class Manifest(FileModel):
     """What a session folder holds.
 
     Attributes
@@ -33,7 +34,7 @@ class Manifest(Part):
         Digest of the study it belongs to, as in ``study.yaml``; None when it does not say.
     """
 
-    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    schema_version: Annotated[SchemaVersion, Field(alias="schema")] = SCHEMA_VERSION
     study: str | None = None
     files: dict[str, FileEntry]
     versions: dict[str, str]

@@ -7,23 +7,24 @@ from pathlib import Path
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.record.atomic import naming, partial_beside, sync_folder
+from protocols.record.column import Column, arrow_schema, brought_up_to_date
 from protocols.record.parquet import parquet_settings, read_parquet
 from protocols.record.session import LAPS_FILE, PARTICIPANT_FILE, SURVEYS_FILE
 from protocols.record.sessions import SESSIONS, finished_sessions
-from protocols.record.tables import LAP_SCHEMA, PARTICIPANT_SCHEMA, SURVEY_SCHEMA
+from protocols.record.tables import LAP_COLUMNS, PARTICIPANT_COLUMNS, SURVEY_COLUMNS
 
 PARTICIPANTS_TABLE = "participants.parquet"
 LAPS_TABLE = "laps.parquet"
 SURVEYS_TABLE = "surveys.parquet"
 
 STUDY_TABLES = (
-    (SURVEYS_TABLE, SURVEYS_FILE, SURVEY_SCHEMA),
-    (LAPS_TABLE, LAPS_FILE, LAP_SCHEMA),
-    (PARTICIPANTS_TABLE, PARTICIPANT_FILE, PARTICIPANT_SCHEMA),
+    (SURVEYS_TABLE, SURVEYS_FILE, SURVEY_COLUMNS),
+    (LAPS_TABLE, LAPS_FILE, LAP_COLUMNS),
+    (PARTICIPANTS_TABLE, PARTICIPANT_FILE, PARTICIPANT_COLUMNS),
 )
-"""Name of each table, of the file in a session that its rows come from, and its schema.
+"""Name of each table, of the file in a session that its rows come from, and its columns.
 
 Participants come last: whoever is in that table is in the others, wherever a run was killed.
 """
@@ -55,9 +56,9 @@ def build_tables(folder: Path, study: str | None = None) -> None:
     participants = finished_sessions(folder, study)
     partials = {folder / table: partial_beside(folder / table) for table, _, _ in STUDY_TABLES}
     try:
-        for table, part, schema in STUDY_TABLES:
-            rows = _row_groups(folder / SESSIONS, part, schema, participants)
-            _write(folder / table, partials[folder / table], schema, rows)
+        for table, part, columns in STUDY_TABLES:
+            rows = _row_groups(folder / SESSIONS, part, columns, participants)
+            _write(folder / table, partials[folder / table], arrow_schema(columns), rows)
         for target, partial in partials.items():
             partial.replace(target)
     except BaseException:
@@ -77,17 +78,23 @@ def _write(target: Path, partial: Path, schema: pa.Schema, groups: Iterator[pa.T
 
 
 def _row_groups(
-    sessions: Path, part: str, schema: pa.Schema, participants: Sequence[str]
+    sessions: Path, part: str, columns: tuple[Column, ...], participants: Sequence[str]
 ) -> Iterator[pa.Table]:
     for start in range(0, len(participants), _SESSIONS_PER_ROW_GROUP):
         names = participants[start : start + _SESSIONS_PER_ROW_GROUP]
-        tables = [session_rows(sessions / name / part, schema) for name in names]
+        tables = [session_rows(sessions / name / part, columns) for name in names]
         yield pa.concat_tables(tables).combine_chunks()
 
 
-def session_rows(path: Path, schema: pa.Schema) -> pa.Table:
-    """Return a session's table; ``InputError`` when it cannot be read or has other columns."""
-    table = read_parquet(path)
-    if not table.schema.equals(schema):
-        raise InputError(f"{path}: its columns are not those of this version's record")
+def session_rows(path: Path, columns: tuple[Column, ...]) -> pa.Table:
+    """Return a session's table of any record version in this version's columns.
+
+    Raises
+    ------
+    InputError
+        When it cannot be read or has other columns.
+    """
+    table = brought_up_to_date(read_parquet(path), columns)
+    if table is None:
+        raise InputError(f"{path}: its columns are not those of the record")
     return table

@@ -9,7 +9,7 @@ from typing import Any
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 
 def parquet_settings(schema: pa.Schema) -> dict[str, Any]:

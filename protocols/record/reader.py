@@ -10,13 +10,14 @@ import pyarrow as pa
 import pyarrow.compute as pc
 
 from protocols.course.schema import Course
-from protocols.errors import InputError
+from protocols.files.errors import InputError
+from protocols.files.suggestion import listed
 from protocols.instrument import Instrument
 from protocols.record.atomic import is_partial
+from protocols.record.elsewhere import LAPS, PARTICIPANTS, STEPS, SURVEYS, TableRules, conform
 from protocols.record.header import StudyHeader, read_header
 from protocols.record.logs import failures
 from protocols.record.merge import LAPS_TABLE, PARTICIPANTS_TABLE, SURVEYS_TABLE
-from protocols.record.minimal import LAPS, PARTICIPANTS, STEPS, SURVEYS, TableRules, conform
 from protocols.record.parquet import read_parquet
 from protocols.record.session import MODEL_FILE, steps_file
 from protocols.record.sessions import (
@@ -26,7 +27,6 @@ from protocols.record.sessions import (
     session_folders,
 )
 from protocols.study import StudyProtocol
-from protocols.suggestion import listed
 
 
 @dataclass(frozen=True)
@@ -60,8 +60,13 @@ class Study:
         return self.header.instruments
 
     @property
+    def elsewhere(self) -> bool:
+        """Whether other programs recorded the study."""
+        return self.header.origin == "elsewhere"
+
+    @property
     def seed(self) -> int | None:
-        """The seed; None for a study that was not simulated."""
+        """The seed; None for a study that was recorded elsewhere."""
         return self.header.seed
 
     @cached_property
@@ -77,7 +82,7 @@ class Study:
     @cached_property
     def surveys(self) -> pa.Table:
         """One row per question asked; without rows when nothing was asked."""
-        if self.seed is None and not (self.folder / SURVEYS_TABLE).exists():
+        if self.elsewhere and not (self.folder / SURVEYS_TABLE).exists():
             nothing = pa.schema([pa.field(c.name, c.type) for c in SURVEYS.columns]).empty_table()
             return conform(nothing, SURVEYS, self.folder / SURVEYS_TABLE)
         return self._table(SURVEYS_TABLE, SURVEYS)
@@ -186,7 +191,7 @@ def open_study(folder: Path | str) -> Study:
     --------
     >>> open_study("nowhere")
     Traceback (most recent call last):
-    protocols.errors.InputError: nowhere: no such folder
+    protocols.files.errors.InputError: nowhere: no such folder
     """
     folder = Path(folder)
     study = Study(folder, read_header(folder))
@@ -196,7 +201,7 @@ def open_study(folder: Path | str) -> Study:
     for name, rows in ((PARTICIPANTS_TABLE, study.participants), (LAPS_TABLE, study.laps)):
         if not len(rows):
             raise InputError(f"{folder / name}: has no row{_what_to_do(study)}")
-    if study.seed is not None:  # elsewhere nobody can make them anew: their faults are reported
+    if not study.elsewhere:  # elsewhere nobody can make them anew: their faults are reported
         for _, fault in off_scale(study):
             raise InputError(fault)
     _refuse_stale_tables(study)
@@ -205,7 +210,7 @@ def open_study(folder: Path | str) -> Study:
 
 def _what_to_do(study: Study) -> str:
     """Return how a table without a row comes to have some."""
-    if study.seed is None:
+    if study.elsewhere:
         return "; a report needs at least one participant and one lap"
     n = len(study.sessions())
     if not n:
@@ -215,7 +220,7 @@ def _what_to_do(study: Study) -> str:
 
 def _refuse_stale_tables(study: Study) -> None:
     """Refuse tables that a stopped run has not come to build: they would hide its sessions."""
-    if study.seed is None:  # recorded elsewhere: who is in the tables is its makers' choice
+    if study.elsewhere:  # recorded elsewhere: who is in the tables is its makers' choice
         return
     known = set(study.participants["participant"].to_pylist())
     new = [name for name in finished_sessions(study.folder) if name not in known]

@@ -4,11 +4,29 @@ Their fields are the columns of ``protocols.record.tables``, name by name; what 
 unit and its allowed values stand there.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal, get_args
 
-EndReason = Literal["finished", "time_limit", "withdrew"]
+from protocols.condition import AssistantRole
+from protocols.instrument import Item
+
+EndReason = Literal["finished", "time_limit", "withdrew", "stopped", "disconnected", "interrupted"]
+"""Finished; too slow; the participant left; whoever held the clock stopped the lap; a person's
+connection was lost; the program ended in the middle."""
+
+ASSISTANT_ROLES: tuple[AssistantRole, ...] = get_args(AssistantRole)
+
+END_REASONS: tuple[EndReason, ...] = get_args(EndReason)
+
+ENDS_SESSION: frozenset[EndReason] = frozenset({"withdrew", "interrupted"})
+"""After a lap that ended so, nothing follows."""
+
+
+def questions_follow(reason: str) -> bool:
+    """Tell whether questions about a lap are asked: it was driven to its end or its time limit."""
+    return reason in {"finished", "time_limit"}
 
 
 def participant_id(number: int) -> str:
@@ -20,6 +38,18 @@ def participant_id(number: int) -> str:
     'P0001'
     """
     return f"P{number:04d}"
+
+
+def participant_number(participant: str) -> int:
+    """Return the number in an id of ours; 0 for an id that is none.
+
+    Examples
+    --------
+    >>> participant_number("P0012"), participant_number("somebody")
+    (12, 0)
+    """
+    digits = participant.removeprefix("P")
+    return int(digits) if digits.isdecimal() and participant_id(int(digits)) == participant else 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,7 +81,7 @@ class LapRow:
     condition: str
     practice: bool
     limited: bool
-    assistant: Literal["none", "demonstrator", "model"]
+    assistant: AssistantRole
     training: bool
     completed: bool
     end_reason: EndReason
@@ -67,15 +97,58 @@ class LapRow:
     basis_vectors_when: int | None = None
     basis_vectors_how: int | None = None
     seed: int
+    stop_reason: str | None = None
+    pauses: int | None = None
+    paused_s: float | None = None
+    last_segments: tuple[float, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SurveyRow:
-    """One answer; ``response`` is None where the question stayed unanswered."""
+    """One answer: a point of the scale, a number or text; all None where there is none."""
 
     participant: str
     lap: int
     condition: str
     instrument: str
     item: str
-    response: int | None
+    response: int | None = None
+    response_number: float | None = None
+    response_text: str | None = None
+
+
+def response_fields(item: Item, answer: float | str | None, points: int) -> dict[str, Any]:
+    """Return the columns in which an answer is recorded.
+
+    Parameters
+    ----------
+    item
+        What was asked.
+    answer
+        As given; None where the question was left out.
+    points
+        Of the instrument's scale.
+
+    Raises
+    ------
+    ValueError
+        When the answer is not of the item's kind, or out of its range.
+
+    Examples
+    --------
+    >>> response_fields(Item(id="Q1", text="It was easy."), 4, 5)
+    {'response': 4}
+    """
+    if answer is None:
+        return {}
+    if item.answer == "text" and isinstance(answer, str):
+        return {"response_text": answer}
+    if item.answer == "number" and isinstance(answer, int | float):
+        low = -math.inf if item.lowest is None else item.lowest
+        high = math.inf if item.highest is None else item.highest
+        if low <= answer <= high and math.isfinite(answer):
+            return {"response_number": float(answer)}
+    if item.answer == "point" and isinstance(answer, int) and 1 <= answer <= points:
+        return {"response": int(answer)}
+    allowed = f"a point of 1 to {points}" if item.answer == "point" else f"a {item.answer}"
+    raise ValueError(f"item {item.id}: {answer!r} is not an answer; allowed: {allowed}")

@@ -1,5 +1,6 @@
 """Session folders: each there whole or not at all."""
 
+import itertools
 import shutil
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -10,7 +11,13 @@ from protocols.record.manifest import MANIFEST_FILE, Manifest, entry, parse_mani
 SESSIONS = "sessions"
 
 
-def write_session(folder: Path, participant: str, files: Mapping[str, bytes]) -> None:
+SET_ASIDE = "set-aside"
+"""Folder of a study directory with what could not be used, and must not be deleted."""
+
+
+def write_session(
+    folder: Path, participant: str, files: Mapping[str, bytes], *, keep_damaged: bool = False
+) -> None:
     """Add a session to a study directory: written beside its place, then renamed.
 
     A whole session that is already there stays as it is; a damaged one is replaced, and one of
@@ -24,6 +31,9 @@ def write_session(folder: Path, participant: str, files: Mapping[str, bytes]) ->
         The participant's id, the session folder's name.
     files
         As ``protocols.record.session.encode`` returns them, manifest included.
+    keep_damaged
+        Whether a session that is replaced is moved to ``SET_ASIDE``, as a living person's must
+        be; a simulated one can be made anew and is deleted.
 
     Raises
     ------
@@ -43,7 +53,10 @@ def write_session(folder: Path, participant: str, files: Mapping[str, bytes]) ->
         for name in sorted(files):
             write_through(partial / name, files[name])
         sync_folder(partial)
-        _put_aside(target)
+        if keep_damaged:
+            set_aside(folder, participant)
+        else:
+            _delete(target)
         partial.rename(target)
     except BaseException:
         shutil.rmtree(partial, ignore_errors=True)
@@ -59,8 +72,24 @@ def _checked(participant: str, files: Mapping[str, bytes]) -> Manifest:
     return manifest
 
 
-def _put_aside(target: Path) -> None:
-    """Move a damaged session out of the way: a folder cannot be renamed onto another."""
+def set_aside(folder: Path, participant: str) -> Path | None:
+    """Move a session's folder to where nothing is deleted; return where, None if there is none."""
+    source = folder / SESSIONS / participant
+    if not source.exists():
+        return None
+    parent = folder / SET_ASIDE
+    parent.mkdir(exist_ok=True)
+    taken = {path.name for path in parent.iterdir()}
+    number = next(n for n in itertools.count(1) if f"{participant}-{n}" not in taken)
+    target = parent / f"{participant}-{number}"
+    source.rename(target)
+    sync_folder(parent)
+    sync_folder(source.parent)
+    return target
+
+
+def _delete(target: Path) -> None:
+    """Delete a damaged session, renamed first: a killed run must not leave half of it."""
     if target.exists():
         aside = partial_beside(target.with_name(f"damaged-{target.name}"))
         shutil.rmtree(aside, ignore_errors=True)
@@ -79,6 +108,15 @@ def finished_sessions(folder: Path, study: str | None = None) -> tuple[str, ...]
         Only sessions of the study with this digest; None for all.
     """
     return tuple(path.name for path in session_folders(folder) if is_whole(path, study))
+
+
+def whole_sessions(folder: Path, study: str | None = None) -> tuple[str, ...]:
+    """Return the participants whose sessions are whole, checksums compared, sorted."""
+    return tuple(
+        path.name
+        for path in session_folders(folder)
+        if is_whole(path, study) and not any(session_faults(path))
+    )
 
 
 def session_folders(folder: Path) -> tuple[Path, ...]:

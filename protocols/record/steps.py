@@ -67,6 +67,18 @@ STEP_COLUMNS: tuple[Column, ...] = (
     Column("clearance_m", _F, "Distance from the chair's footprint to the nearest obstacle", "m",
            "0 or more"),
     Column("contact", pa.bool_(), "Whether the chair touched an obstacle during the step"),
+    Column("input_age_s", _F, "How old the driver's command is that was used; 0 for one given in "
+           "this step", "s", "0 or more", nullable=True, since=2),
+    Column("late_s", _F, "From the moment the step was due to the moment it started; missing in "
+           "simulated time", "s", "0 or more", nullable=True, since=2),
+    Column("shift_s", _F, "By how much the lap's zero moved before the step because it was late; "
+           "missing in simulated time", "s", "0 or more", nullable=True, since=2),
+    Column("result_x_m", _F, "Ground-truth position at the end of the step", "m", nullable=True,
+           since=2),
+    Column("result_y_m", _F, "Ground-truth position at the end of the step", "m", nullable=True,
+           since=2),
+    Column("result_heading_rad", _F, "Ground-truth heading at the end of the step", "rad",
+           nullable=True, since=2),
 )  # fmt: skip
 
 STEP_SCHEMA = arrow_schema(STEP_COLUMNS)

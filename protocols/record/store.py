@@ -1,6 +1,6 @@
 """Everything a runner writes a study with."""
 
-from protocols.record.folder import held, open_folder, refuse_another_study
+from protocols.record.folder import locked, open_folder, refuse_another_study
 from protocols.record.logs import (
     clear_failure,
     failure_reason,
@@ -14,7 +14,7 @@ from protocols.record.logs import (
     write_warnings,
 )
 from protocols.record.merge import build_tables
-from protocols.record.sessions import finished_sessions, write_session
+from protocols.record.sessions import finished_sessions, whole_sessions, write_session
 
 __all__ = [
     "build_tables",
@@ -22,10 +22,11 @@ __all__ = [
     "failure_reason",
     "failures",
     "finished_sessions",
-    "held",
+    "locked",
     "open_folder",
     "raised",
     "refuse_another_study",
+    "whole_sessions",
     "write_death",
     "write_failure",
     "write_given_up",

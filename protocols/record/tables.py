@@ -3,11 +3,11 @@
 import pyarrow as pa
 
 from protocols.record.column import Column, arrow_schema
+from protocols.record.rows import ASSISTANT_ROLES, END_REASONS
 
 _F = pa.float64()
 _ID = Column("participant", pa.string(), "Participant number, e.g. P0001")
 
-END_REASONS = ("finished", "time_limit", "withdrew")
 GENDERS = ("female", "male", "other", "undisclosed")
 HANDEDNESS = ("right", "left", "both", "undisclosed")
 
@@ -36,7 +36,7 @@ LAP_COLUMNS: tuple[Column, ...] = (
     Column("condition", pa.string(), "Condition as the protocol names it"),
     Column("practice", pa.bool_(), "Whether the lap is for familiarisation and not analysed"),
     Column("limited", pa.bool_(), "Whether the control limitation was on"),
-    Column("assistant", pa.string(), "Who could help", "", "none, demonstrator, model"),
+    Column("assistant", pa.string(), "Who could help", "", ", ".join(ASSISTANT_ROLES)),
     Column("training", pa.bool_(), "Whether the model learnt during the lap"),
     Column("completed", pa.bool_(), "Whether the lap reached its last gate"),
     Column("end_reason", pa.string(), "Why the lap ended", "", ", ".join(END_REASONS)),
@@ -57,6 +57,14 @@ LAP_COLUMNS: tuple[Column, ...] = (
     Column("basis_vectors_how", pa.int32(), "Basis vectors of the regressor at the lap's end",
            nullable=True),
     Column("seed", pa.uint64(), "Fingerprint of the lap's random streams"),
+    Column("stop_reason", pa.string(), "Why the lap was stopped, in the words of who stopped it",
+           nullable=True, since=2),
+    Column("pauses", pa.int32(), "How often the lap was paused; missing in simulated time", "",
+           "0 or more", nullable=True, since=2),
+    Column("paused_s", _F, "How long it was paused in all; not part of any other time", "s",
+           "0 or more", nullable=True, since=2),
+    Column("last_segments", pa.list_(pa.field("element", _F)), "Laser segments after the last "
+           "step, from right to left", "m", "0 to 4", nullable=True, since=2),
 )  # fmt: skip
 
 SURVEY_COLUMNS: tuple[Column, ...] = (
@@ -67,6 +75,10 @@ SURVEY_COLUMNS: tuple[Column, ...] = (
     Column("item", pa.string(), "Item of the instrument, e.g. Q7"),
     Column("response", pa.int8(), "Answer on the item's scale, as given (reverse-coded items are "
            "not turned); missing when not answered", "", "1 to the scale's points", nullable=True),
+    Column("response_number", _F, "Answer to an item that asks for a number", nullable=True,
+           since=2),
+    Column("response_text", pa.string(), "Answer to an item that asks for text", nullable=True,
+           since=2),
 )  # fmt: skip
 
 PARTICIPANT_SCHEMA = arrow_schema(PARTICIPANT_COLUMNS)

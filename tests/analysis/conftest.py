@@ -162,7 +162,7 @@ def session(study: ResolvedStudy, number: int, how: MadeUp, seed: int) -> Sessio
         laps.append(RecordedLap(row, as_table(frame)))
         if left:
             break
-        for instrument, item in study.questions(lap):
+        for instrument, item in study.questions(planned):
             given = how.answer or int(rng.integers(1, instrument.points + 1))
             response = None if (number, item.id) in how.unanswered else given
             answers.append(

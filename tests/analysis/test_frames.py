@@ -133,7 +133,9 @@ def elsewhere(make_study):
     """Return the folder of a study that was not simulated."""
     folder = make_study(participants=2).folder
     header = folder / "study.yaml"
-    header.write_text(re.sub("(?m)^seed: .*$", "seed: null", header.read_text()))
+    header.write_text(
+        re.sub("(?m)^seed: .*\norigin: .*$", "seed: null\norigin: elsewhere", header.read_text())
+    )
     return folder
 
 

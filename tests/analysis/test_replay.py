@@ -4,7 +4,7 @@ import pytest
 from PIL import Image
 
 from analysis.replay import EVERY, write_replay
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 
 def test_a_replay_moves_and_shows_who_is_in_control(study, tmp_path):

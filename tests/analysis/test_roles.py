@@ -1,6 +1,6 @@
 """What part each condition plays."""
 
-from analysis.roles import cast, first, yardstick
+from analysis.roles import cast, first, reference_condition
 from protocols.load import load_protocol
 
 
@@ -11,11 +11,11 @@ def test_the_four_laps_have_their_parts():
     assert [p.demonstrations for p in parts] == [0, 0, 0, 1]
     assert [p.taught for p in parts] == [False, False, True, True]
     assert first(parts, "model") == "model-assisted"
-    assert yardstick(parts) == "limited"
+    assert reference_condition(parts) == "limited"
 
 
 def test_without_a_limitation_the_baseline_is_the_yardstick():
     """Speedups need something to be measured from."""
     parts = tuple(p for p in cast(load_protocol("four-lap")) if p.role != "limited")
-    assert yardstick(parts) == "baseline"
-    assert yardstick(()) is None
+    assert reference_condition(parts) == "baseline"
+    assert reference_condition(()) is None

@@ -4,9 +4,9 @@ import sys
 
 import pytest
 
-from harness.crew import get_ready
-from harness.plan import Plan
-from harness.seeds import stream
+from harness.running.open_workers import warm_up_workers
+from harness.session.seeds import generator
+from harness.session.study_run import StudyRun
 from protocols.load import resolve_study
 
 BRIEF = """\
@@ -66,22 +66,22 @@ def impossible(setup): raise ValueError("no such thing")
 @pytest.fixture
 def ready():
     """Have worker processes forked from one that has imported what they need."""
-    get_ready()
+    warm_up_workers()
 
 
 @pytest.fixture
 def unlucky():
     """Return the function that says for which participants the drivers below misbehave."""
 
-    def numbers(plan):
-        planned = range(1, plan.study.protocol.cohort.participants + 1)
-        return [n for n in planned if stream(plan.seed, n, "driver").random() < 0.6]
+    def numbers(run):
+        planned = range(1, run.study.protocol.cohort.participants + 1)
+        return [n for n in planned if generator(run.seed, n, "driver").random() < 0.6]
 
     return numbers
 
 
 @pytest.fixture
-def make_plan(tmp_path, monkeypatch):
+def make_run(tmp_path, monkeypatch):
     """Return a function that plans the study of one short lap."""
     (tmp_path / "some_drivers.py").write_text(DRIVERS)
     monkeypatch.syspath_prepend(tmp_path)
@@ -89,7 +89,7 @@ def make_plan(tmp_path, monkeypatch):
     def make(participants=4, seed=0, driver="{use: 'some_drivers:straight'}"):
         path = tmp_path / "brief.yaml"
         path.write_text(BRIEF.format(participants=participants, driver=driver))
-        return Plan(resolve_study(str(path)), seed)
+        return StudyRun(resolve_study(str(path)), seed)
 
     yield make
     sys.modules.pop("some_drivers", None)

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from harness.laser import Laser
+from harness.world.laser import Laser
 from protocols.course.centreline import Centreline
 from protocols.course.obstacles import obstacle_boxes
 from protocols.load import load_course

@@ -6,10 +6,11 @@ import math
 import numpy as np
 import pytest
 
-from harness.laser import Laser
-from harness.plan import Plan
-from harness.session import Session
-from harness.world import BulletWorld
+from harness.session.parts import make_parts
+from harness.session.session import Session
+from harness.session.study_run import StudyRun
+from harness.world.bullet_world import BulletWorld
+from harness.world.laser import Laser
 from protocols.course.centreline import Centreline
 from protocols.course.obstacles import floor_plan, obstacle_boxes
 from protocols.load import load_course
@@ -30,14 +31,14 @@ def _turns(course, kinds):
 
 def test_the_mirror_image_is_one():
     """Every obstacle of the default course stands in the mirror image, its y turned around."""
-    plan = floor_plan(load_course("lab-office"))
+    run = floor_plan(load_course("lab-office"))
     mirror = load_course("lab-office-mirror")
     original = obstacle_boxes(load_course("lab-office"))
     for ours, theirs in zip(obstacle_boxes(mirror), original, strict=True):
         flipped = [(x, -y) for x, y in ours.corners()]
         for corner in theirs.corners():
             assert min(math.dist(corner, other) for other in flipped) < 1e-9
-    assert floor_plan(mirror).area == pytest.approx(plan.area, abs=1e-6)
+    assert floor_plan(mirror).area == pytest.approx(run.area, abs=1e-6)
 
 
 def test_the_mirror_image_has_no_right_turn():
@@ -90,6 +91,7 @@ def test_both_kinds_of_driver_finish_a_lap(name, driver):
     study = ResolvedStudy(protocol, load_course(name), ())
     world = BulletWorld(study.course, laser=protocol.laser, period=protocol.control_period_s,
                         start_noise=protocol.start_noise)  # fmt: skip
-    (lap,) = Session(Plan(study, 0), 1, world).run().laps
+    run = StudyRun(study, 0)
+    (lap,) = Session(run, 1, world, make_parts(run, 1)).run().laps
     assert lap.row.completed
     assert lap.row.collisions == 0

@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import pytest
 
-from harness.plan import Plan
-from harness.session import Session
-from harness.world import BulletWorld
+from harness.session.parts import make_parts
+from harness.session.session import Session
+from harness.session.study_run import StudyRun
+from harness.world.bullet_world import BulletWorld
 from protocols.cohort import Cohort
 from protocols.declared import Exclusion
 from protocols.exclusion import exclusion_reason
@@ -20,7 +21,8 @@ def record():
     cohort = Cohort.model_validate({"traits": {"patience_s": {"median": 10.5, "spread": 0}}})
     protocol = study.protocol.model_copy(update={"cohort": cohort})
     world = BulletWorld(study.course, protocol.laser, protocol.control_period_s)
-    return Session(Plan(replace(study, protocol=protocol), 0), 1, world).run()
+    run = StudyRun(replace(study, protocol=protocol), 0)
+    return Session(run, 1, world, make_parts(run, 1)).run()
 
 
 def test_the_lap_ends_with_a_reason(record):

@@ -10,7 +10,7 @@ from participants.attentive import EARLIEST, LATEST, AttentiveDemonstrator, Atte
 from participants.registry import make_demonstrator, make_driver
 from participants.setup import DemonstratorSetup, DriverSetup
 from participants.sight import Sight
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.pose import Pose
 from protocols.wheelchair import MAX_TURN_RATE
 

@@ -7,7 +7,7 @@ from lad.command import Command
 from participants.registry import make_driver
 from participants.setup import DriverSetup
 from participants.sight import Sight
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.pose import Pose
 from protocols.wheelchair import LASER_AHEAD
 

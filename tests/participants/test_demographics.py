@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from participants.demographics import age_distribution, draw_particulars
 from protocols.cohort import AgeRange, Demographics
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 
 def moments(ages):

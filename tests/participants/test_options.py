@@ -3,7 +3,7 @@
 import pytest
 
 from participants.options import NoOptions, Options, read_options
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 
 class Some(Options):

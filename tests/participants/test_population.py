@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy import stats
 
 from participants.population import PEOPLE, TRAITS, Marginal, Population
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 N = len(TRAITS)
 

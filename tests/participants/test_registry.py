@@ -17,7 +17,7 @@ from participants.registry import (
 from participants.setup import DemonstratorSetup, DriverSetup, RespondentSetup
 from participants.sight import Onlooker
 from participants.survey import Question
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 MODULE = """
 from lad.command import Command
@@ -80,12 +80,15 @@ def test_a_dotted_path_makes_somebody_elses_driver(lab_office):
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("humna", "there is none of this name; allowed: autonomous, human, scripted, or a dotted"),
+        (
+            "humna",
+            "no driver is called so; allowed: package.module:factory, human, autonomous, scripted",
+        ),
         ("no_such_package:x", "cannot import 'no_such_package' .ModuleNotFoundError"),
         ("their_broken:x", "cannot import 'their_broken' .RuntimeError: no joystick"),
         ("their_drivers:absent", "'their_drivers' has no function 'absent'"),
         ("their_drivers:number", "'their_drivers' has no function 'number'"),
-        ("their_drivers:nobody", "what it makes is no driver, it lacks start_lap, act"),
+        ("their_drivers:nobody", "is no driver, it lacks start_lap, act"),
     ],
 )
 def test_a_name_that_makes_nobody_is_explained(setup, name, message):

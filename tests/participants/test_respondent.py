@@ -13,7 +13,7 @@ from participants.registry import make_respondent
 from participants.respondent import NO_STYLE, OrdinalRespondent, on_scale
 from participants.setup import RespondentSetup
 from participants.survey import LapExperience, Question
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 QUESTIONS = tuple(Question("driving-assistance", item) for item in DRIVING_ASSISTANCE)
 LOADINGS = {("driving-assistance", item): row for item, row in DRIVING_ASSISTANCE.items()}

@@ -9,7 +9,7 @@ from lad.command import STILL, Command
 from participants.registry import make_driver
 from participants.scripted import ScriptedDriver, read_log
 from participants.setup import DriverSetup
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 NUMBER = st.floats(-1.0, 1.0)
 

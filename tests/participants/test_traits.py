@@ -6,7 +6,7 @@ import pytest
 
 from participants.cohort import typical_traits
 from participants.traits import ResponseStyle, Traits, declared
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 
 @pytest.mark.parametrize("kind", [Traits, ResponseStyle])

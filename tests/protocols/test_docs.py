@@ -19,8 +19,8 @@ from protocols.cohort import (
 from protocols.condition import Condition, LimitationSettings
 from protocols.declared import LAP_OUTCOMES, Comparison, Exclusion
 from protocols.instrument import Instrument, Item
-from protocols.plan import PlannedLap, SurveyPlan
-from protocols.record.minimal import LAPS, PARTICIPANTS, STEPS, SURVEYS
+from protocols.laps import AskedInstrument, PlannedLap
+from protocols.record.elsewhere import LAPS, PARTICIPANTS, STEPS, SURVEYS
 from protocols.start_noise import StartNoise
 from protocols.study import LaserSettings, ModelChoice, StudyProtocol
 
@@ -29,7 +29,7 @@ _PROSE = re.sub(r"```.*?```", "", _PAGE, flags=re.DOTALL)
 _NAMED = {word for code in re.findall(r"`([^`]+)`", _PROSE) for word in re.findall(r"[\w-]+", code)}
 _MODELS = (
     StudyProtocol, Cohort, Demographics, AgeRange, DriverChoice, ImpairmentChoice,
-    TraitDistribution, Condition, LimitationSettings, PlannedLap, SurveyPlan, ModelChoice,
+    TraitDistribution, Condition, LimitationSettings, PlannedLap, AskedInstrument, ModelChoice,
     LADParameters, LaserSettings, StartNoise, Exclusion, Comparison, Instrument, Item,
 )  # fmt: skip
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from lad.hyperparameters import LADParameters
 from protocols.course.schema import Course, Furniture
-from protocols.dump import to_yaml
-from protocols.errors import InputError
+from protocols.files.dump import to_yaml
+from protocols.files.errors import InputError
 from protocols.instrument import Instrument
 from protocols.load import (
     check_file,
@@ -56,8 +56,8 @@ def test_four_lap_is_the_papers_study():
     assert [lap.condition for lap in laps] == [
         "familiarisation", "baseline", "limited", "human-assisted", "model-assisted"]  # fmt: skip
     assert [lap.practice for lap in laps] == [True, False, False, False, False]
-    assert [len(study.questions(n)) for n in range(5)] == [0, 4, 4, 11, 11]
-    conditions = [study.protocol.condition_of(n) for n in range(5)]
+    assert [len(study.questions(lap)) for lap in study.protocol.laps] == [0, 4, 4, 11, 11]
+    conditions = [study.protocol.conditions[study.protocol.laps[n].condition] for n in range(5)]
     assert [c.assistant for c in conditions] == ["none", "none", "none", "demonstrator", "model"]
     assert [c.limitation is not None for c in conditions] == [False, False, True, True, True]
     assert [c.training for c in conditions] == [False, False, False, True, False]

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.shipped import locate, shipped_names, shipped_text
 
 

@@ -7,7 +7,7 @@ from pydantic import ValidationError
 
 from lad.hyperparameters import LADParameters
 from protocols.consistency import check_consistency
-from protocols.fault import InconsistentError
+from protocols.files.fault import InconsistentError
 from protocols.study import StudyProtocol
 
 _LIMIT = {"right_turn_rad_s": 0.15}
@@ -49,7 +49,7 @@ def test_defaults_are_the_papers():
     assert study.cohort.participants == 12
     assert study.cohort.demographics.age_years.mean == 27
     assert study.model.parameters == LADParameters()
-    condition = study.condition_of(0)
+    condition = study.conditions[study.laps[0].condition]
     assert (condition.safeguard, condition.arbitration, condition.assistant) == (
         True, "takeover", "none")  # fmt: skip
 
@@ -150,4 +150,4 @@ def test_ages_must_be_possible():
 def test_a_right_plan_has_no_faults():
     """The check says nothing about a plan that agrees with itself."""
     study = _study("baseline", "limited", "taught", "helped")
-    check_consistency(study.conditions, study.laps, study.analyses)
+    check_consistency(study.conditions, study.laps, study.analyses, cohort=study.cohort)

@@ -1,8 +1,8 @@
 """Our numbers beside the paper's."""
 
 from analysis.report.blocks import Block, Caution, Paragraph, Section, Shown, table
+from analysis.report.numbers import NOTHING, interval, number
 from analysis.report.sections.survey import ASSUMED
-from analysis.report.words import NOTHING, interval, number
 from analysis.results import StudyResults
 
 

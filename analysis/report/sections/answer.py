@@ -8,9 +8,9 @@ from analysis.frames import StudyFrames
 from analysis.outcomes import by_participant
 from analysis.practice import order_confounded, other_orders
 from analysis.report.blocks import Block, Caution, Fact, Facts, Paragraph, Picture, Section
-from analysis.report.words import count, interval, is_p, number, percent, plural
+from analysis.report.numbers import count, interval, is_p, number, percent, plural
 from analysis.results import StudyResults
-from analysis.roles import yardstick
+from analysis.roles import reference_condition
 from analysis.stats.result import TestResult
 
 ALPHA = 0.05
@@ -37,7 +37,7 @@ def _chosen(results: StudyResults) -> tuple[PairedComparison, ...]:
     declared = [c for c in results.declared if c.outcome == "lap_time_s"]
     if declared:  # what helped comes first, in the protocol's order otherwise
         return tuple(sorted(declared, key=lambda c: c.condition not in helped))
-    reference = yardstick(results.frames.parts)
+    reference = reference_condition(results.frames.parts)
     return tuple(c for c in results.lap_times if c.condition in helped and c.reference == reference)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from analysis.comparisons import PairedComparison
 from analysis.report.blocks import Block, Paragraph, Remarks, Section, Shown, table
-from analysis.report.words import count, interval, number, p_value, rank_sum, with_interval
+from analysis.report.numbers import count, interval, number, p_value, rank_sum, with_interval
 from analysis.results import StudyResults
 from analysis.tables.comparisons import comparison_table
 

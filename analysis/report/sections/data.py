@@ -6,7 +6,7 @@ import pandas as pd
 
 from analysis.frames import as_frame
 from analysis.report.blocks import Block, Paragraph, Section, Shown, table
-from analysis.report.words import NOTHING, count
+from analysis.report.numbers import NOTHING, count
 from analysis.results import StudyResults
 from protocols.record.codebook import codebook
 

@@ -4,7 +4,7 @@ from typing import Any
 
 from analysis.figures.lap_times import lap_time_figure
 from analysis.report.blocks import Picture, Section, Shown, table
-from analysis.report.words import count, interval, number, percent
+from analysis.report.numbers import count, interval, number, percent
 from analysis.results import StudyResults
 from analysis.tables.comparisons import speedup_table
 from analysis.tables.lap_times import lap_time_table

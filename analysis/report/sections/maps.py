@@ -6,7 +6,7 @@ from analysis.figures.assistance_map import assistance_map
 from analysis.figures.section_shares import section_figure
 from analysis.maps import BANDWIDTH
 from analysis.report.blocks import Block, Paragraph, Picture, Section, Shown, table
-from analysis.report.words import count, is_p, number, percent, plural
+from analysis.report.numbers import count, is_p, number, percent, plural
 from analysis.results import StudyResults
 from analysis.stats.result import TestResult
 

@@ -6,7 +6,7 @@ import pandas as pd
 
 from analysis.measures.registry import MEASURES, measure
 from analysis.report.blocks import Paragraph, Section, Shown, table
-from analysis.report.words import NOTHING, number
+from analysis.report.numbers import NOTHING, number
 from analysis.results import StudyResults
 
 

@@ -7,9 +7,9 @@ from analysis.comparisons import PairedComparison
 from analysis.maps import BANDWIDTH, CELL
 from analysis.outcomes import UNITS
 from analysis.report.blocks import Paragraph, Section
-from analysis.report.words import plural
+from analysis.report.numbers import plural
 from analysis.results import StudyResults, SurveyResults
-from analysis.roles import yardstick
+from analysis.roles import reference_condition
 from analysis.stats.result import TestResult
 from analysis.versions import Recording, analysis_versions, recording_versions
 from protocols.declared import Comparison
@@ -128,7 +128,8 @@ def _comparisons(results: StudyResults) -> Iterator[str]:
 def _models(results: StudyResults) -> Iterator[str]:
     if not (used := _used(results.model)):
         return
-    yield f"Log lap times, every condition against {yardstick(results.frames.parts)}: {used}."
+    reference = reference_condition(results.frames.parts)
+    yield f"Log lap times, every condition against {reference}: {used}."
     if any(found.checks for found in results.model):
         yield "The fit was checked for convergence and for effects of exactly zero."
     else:

@@ -2,7 +2,7 @@
 
 from analysis.figures.model_quality import model_figure
 from analysis.report.blocks import Picture, Section, Shown, table
-from analysis.report.words import count, number
+from analysis.report.numbers import count, number
 from analysis.results import StudyResults
 
 

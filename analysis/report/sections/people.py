@@ -4,7 +4,7 @@ import pandas as pd
 
 from analysis.flow import Flow
 from analysis.report.blocks import Block, Caution, Paragraph, Section, Shown, Table, table
-from analysis.report.words import count, number, plural
+from analysis.report.numbers import count, number, plural
 from analysis.results import StudyResults
 from analysis.stats.describe import describe
 

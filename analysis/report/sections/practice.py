@@ -10,9 +10,9 @@ import pandas as pd
 from analysis.frames import StudyFrames
 from analysis.practice import other_orders
 from analysis.report.blocks import Block, Paragraph, Remarks, Section, Shown, table
-from analysis.report.words import count, interval, number, p_value, percent, with_interval
+from analysis.report.numbers import count, interval, number, p_value, percent, with_interval
 from analysis.results import StudyResults
-from analysis.roles import yardstick
+from analysis.roles import reference_condition
 from analysis.stats.result import TestResult
 
 
@@ -45,7 +45,7 @@ def _caption(model: Sequence[TestResult]) -> str:
 
 
 def _why_no_model(results: StudyResults) -> str:
-    reference = yardstick(results.frames.parts)
+    reference = reference_condition(results.frames.parts)
     if reference is None:
         return "the study has no condition without help that the others could be set against"
     timed = set(results.frames.laps.dropna(subset=["lap_time_s"])["condition"])

@@ -7,7 +7,7 @@ import pandas as pd
 from analysis.comparisons import PairedComparison
 from analysis.figures.likert import likert_figure
 from analysis.report.blocks import Block, Caution, Paragraph, Picture, Section, Shown, table
-from analysis.report.words import NOTHING, count, interval, number, p_value, percent, rank_sum
+from analysis.report.numbers import NOTHING, count, interval, number, p_value, percent, rank_sum
 from analysis.results import StudyResults, SurveyResults
 from analysis.roles import Part, first
 from analysis.tables.comparisons import comparison_table

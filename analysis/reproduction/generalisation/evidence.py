@@ -11,7 +11,7 @@ from analysis.measures.streams import helped
 from analysis.reproduction.lessons import STUDIES
 from analysis.reproduction.robustness.evidence import ROBUSTNESS, lap_times
 from protocols.course.centreline import Centreline
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.record.reader import open_study
 from protocols.variants import DEFAULT
 

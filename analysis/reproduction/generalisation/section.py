@@ -4,7 +4,7 @@ import pandas as pd
 
 from analysis.figures.section_shares import KINDS
 from analysis.report.blocks import Paragraph, Picture, Section, Shown, table
-from analysis.report.words import count, number, percent, with_interval
+from analysis.report.numbers import count, number, percent, with_interval
 from analysis.reproduction.generalisation.figure import generalisation_figure
 
 

@@ -6,7 +6,7 @@ from typing import Any
 import pandas as pd
 
 from analysis.report.blocks import Block, Paragraph, Picture, Section, Shown, Table, table
-from analysis.report.words import count, number, percent, plural
+from analysis.report.numbers import count, number, percent, plural
 from analysis.reproduction.robustness.figure import robustness_figure
 
 

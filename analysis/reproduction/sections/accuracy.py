@@ -3,7 +3,7 @@
 import pandas as pd
 
 from analysis.report.blocks import Block, Paragraph, Picture, Section, Shown, Table, table
-from analysis.report.words import count, number
+from analysis.report.numbers import count, number
 from analysis.reproduction.accuracy import Spread, auc, spread
 from analysis.reproduction.accuracy_rows import AUC_AFTER_1, AUC_TEST
 from analysis.reproduction.evidence import Evidence

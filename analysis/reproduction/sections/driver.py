@@ -3,7 +3,7 @@
 from typing import Any
 
 from analysis.report.blocks import Paragraph, Picture, Section, Shown, table
-from analysis.report.words import count, number, p_value, percent, with_interval
+from analysis.report.numbers import count, number, p_value, percent, with_interval
 from analysis.reproduction.driver_rows import PARTS, driver_rows
 from analysis.reproduction.evidence import Evidence
 from analysis.reproduction.figures.lap_times import driver_lap_figure

@@ -3,7 +3,7 @@
 from analysis.figures.lap_times import lap_time_figure
 from analysis.paper import PAPER
 from analysis.report.blocks import Paragraph, Picture, Section
-from analysis.report.words import number
+from analysis.report.numbers import number
 from analysis.reproduction.evidence import Evidence
 from analysis.reproduction.people_rows import PARTS
 

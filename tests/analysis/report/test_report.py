@@ -16,7 +16,7 @@ from analysis.report.render import render
 from analysis.report.write import replace_folder
 from analysis.results import analyse
 from analysis.statistics import statistics_json
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.record.reader import open_study
 
 
@@ -185,7 +185,14 @@ def test_minimal_tables_from_elsewhere_are_reported(make_study):
     shutil.rmtree(folder / "sessions")
     (folder / "surveys.parquet").unlink()
     head = folder / "study.yaml"
-    head.write_text(re.sub(r"^seed: .*$", "seed: null", head.read_text(), flags=re.MULTILINE))
+    head.write_text(
+        re.sub(
+            r"^seed: .*\norigin: .*$",
+            "seed: null\norigin: elsewhere",
+            head.read_text(),
+            flags=re.MULTILINE,
+        )
+    )
     people = study.participants.select(["participant"]).to_pandas()
     people.to_parquet(folder / "participants.parquet")
     laps = ["participant", "lap", "condition", "completed", "lap_time_s", "practice"]

@@ -17,8 +17,8 @@ from analysis.reproduction.robustness.table import variant_table
 from analysis.reproduction.write import contents_of
 from harness.reproduction.full import full_experiments
 from lad.lad_assistant import LADAssistant
-from protocols.dump import to_yaml
-from protocols.errors import InputError
+from protocols.files.dump import to_yaml
+from protocols.files.errors import InputError
 from protocols.variants import VARIANTS
 
 SOME = tuple(v for v in VARIANTS if v.name in ("default", "threshold-0.3", "memoryless"))

@@ -7,7 +7,7 @@ import pytest
 
 from analysis.reproduction import lessons
 from analysis.reproduction.write import PAGE, replace_all, write_reproduction
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 
 ASKED = [
     *(f"rd lap {c}" for c in

@@ -5,9 +5,10 @@ from dataclasses import replace
 import pytest
 from cohort.lap_pairs import PairTrack, drive_all, patient, person_traits
 
-from harness.plan import Plan
-from harness.session import Session
-from harness.world import BulletWorld
+from harness.session.parts import make_parts
+from harness.session.session import Session
+from harness.session.study_run import StudyRun
+from harness.world.bullet_world import BulletWorld
 from protocols.cohort import Cohort
 from protocols.load import resolve_study
 
@@ -20,7 +21,8 @@ def session():
     study = resolve_study("four-lap")
     protocol = study.protocol.model_copy(update={"laps": study.protocol.laps[:3]})
     world = BulletWorld(study.course, protocol.laser, protocol.control_period_s)
-    return Session(Plan(replace(study, protocol=protocol), SEED), NUMBER, world).run()
+    run = StudyRun(replace(study, protocol=protocol), SEED)
+    return Session(run, NUMBER, world, make_parts(run, NUMBER)).run()
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ import pytest
 from harness.reproduction import full
 from harness.reproduction.full import COURSES, full_experiments, run_full
 from lad.lad_assistant import LADAssistant
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.load import load_course, resolve_study
 from protocols.record.reader import open_study
 from protocols.study import StudyProtocol
@@ -29,14 +29,14 @@ def test_there_is_a_study_for_every_variant_and_course(tmp_path):
         *(f"robustness/{v.name}" for v in VARIANTS),
         *(f"generalisation/{name}" for name in COURSES),
     ]
-    assert {e.plan.seed for e in planned} == {5}
-    assert {e.plan.study.protocol.cohort.participants for e in planned} == {16}
+    assert {e.run.seed for e in planned} == {5}
+    assert {e.run.study.protocol.cohort.participants for e in planned} == {16}
 
 
 def test_every_protocol_is_valid_as_written(tmp_path):
     """What the record will say of these studies can be read again."""
     for experiment in full_experiments(tmp_path, 0):
-        protocol = experiment.plan.study.protocol
+        protocol = experiment.run.study.protocol
         data = protocol.model_dump(mode="json", by_alias=True)
         assert StudyProtocol.model_validate(data) == protocol
         assert str(tmp_path) not in str(data)
@@ -44,7 +44,7 @@ def test_every_protocol_is_valid_as_written(tmp_path):
 
 def test_variants_are_driven_with_the_same_noise(tmp_path):
     """Only the model differs: cohort, course, laps and conditions are the default's."""
-    first, *others = [e.plan.study for e in full_experiments(tmp_path, 0)][: len(VARIANTS)]
+    first, *others = [e.run.study for e in full_experiments(tmp_path, 0)][: len(VARIANTS)]
     for study in others:
         same = study.protocol.model_copy(
             update={n: getattr(first.protocol, n) for n in ("name", "title", "model")}
@@ -57,7 +57,7 @@ def test_a_course_of_ones_own_comes_last(tmp_path):
     hall = load_course("ward-corridor").model_copy(update={"name": "hall"})
     last = full_experiments(tmp_path, 0, hall)[-1]
     assert last.folder == tmp_path / "studies" / "generalisation" / "hall"
-    assert last.plan.study.course == hall
+    assert last.run.study.course == hall
     for name in ("lab-office", "ward-corridor"):
         with pytest.raises(InputError, match=name):
             full_experiments(tmp_path, 0, hall.model_copy(update={"name": name}))

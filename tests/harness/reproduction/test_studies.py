@@ -7,8 +7,8 @@ import pytest
 
 from harness.reproduction import studies
 from harness.reproduction.studies import EXPERIMENTS, experiments, run_experiments
-from harness.runner import Outcome
-from protocols.errors import InputError
+from harness.running.runner import Outcome
+from protocols.files.errors import InputError
 from protocols.record.store import write_failure
 
 BRIEF = """\
@@ -61,7 +61,7 @@ def test_the_paper_has_three():
     """Laps, accuracy and people, each by its shipped protocol, all with the seed."""
     planned = experiments(Path("out"), 7)
     assert [e.folder for e in planned] == [Path("out/studies") / name for name in EXPERIMENTS]
-    assert {e.plan.seed for e in planned} == {7}
+    assert {e.run.seed for e in planned} == {7}
 
 
 def test_a_second_run_finds_everything(tmp_path, protocols):
@@ -106,11 +106,11 @@ def test_a_file_is_refused(tmp_path, protocols):
         run_experiments(tmp_path / "out", experiments(tmp_path / "out", 0, protocols), 1, Shown())
 
 
-def test_failed_sessions_are_said_and_run_again(tmp_path, protocols, monkeypatch):
+def test_failed_sessions_are_said_and_resume_command(tmp_path, protocols, monkeypatch):
     """A line names study, participant and reason; sessions that failed before are tried again."""
     planned = experiments(tmp_path, 0, protocols[:1])
 
-    def fail(plan, folder, jobs, tell, *, retry_failed):
+    def fail(run, folder, jobs, tell, *, retry_failed):
         assert retry_failed
         (folder / "logs").mkdir(parents=True)
         write_failure(folder, "P0002", "Traceback\nRuntimeError: fell over\n")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from participants.human.corners import sharp_corners
-from participants.planning.route import Route, plan
+from participants.planning.route import Route, plan_route
 
 
 def way(*turns):
@@ -40,5 +40,5 @@ def test_left_and_right_corners_are_told_apart():
 
 def test_the_default_course_has_two(lab_office):
     """R1 and R2, both to the right; the bends on the way back are soft."""
-    turns = [math.degrees(corner.turn) for corner in sharp_corners(plan(lab_office))]
+    turns = [math.degrees(corner.turn) for corner in sharp_corners(plan_route(lab_office))]
     assert turns == pytest.approx([-135.0, -135.0], abs=25.0)

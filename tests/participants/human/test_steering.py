@@ -8,10 +8,10 @@ import pytest
 
 from lad.command import Command
 from participants.cohort import typical_traits
-from participants.human.authority import Authority
 from participants.human.corners import sharp_corners
 from participants.human.practice import Skill
 from participants.human.steering import Situation, intend
+from participants.human.turn_response import TurnResponse
 from participants.planning.route import Route
 
 TRAITS = typical_traits()
@@ -28,16 +28,16 @@ def route():
 
 def limited():
     """Return the knowledge of somebody whose right turns give 0.3 of what is asked."""
-    authority = Authority(1.0)
+    response = TurnResponse(1.0)
     for _ in range(200):
-        authority.feel(Command(0.0, -0.5), Command(0.0, -0.15), 0.1, trusted=True)
-    return authority
+        response.feel(Command(0.0, -0.5), Command(0.0, -0.15), 0.1, trusted=True)
+    return response
 
 
 def test_straight_ahead_at_the_preferred_speed(route):
     """On a straight, aligned, one drives as one likes, and does not turn."""
     now = Situation(arc=1.0, speed=0.5, error=0.0, corner=sharp_corners(route)[0])
-    v, w = intend(TRAITS, SKILLED, Authority(1.0), route, now)
+    v, w = intend(TRAITS, SKILLED, TurnResponse(1.0), route, now)
     assert v == pytest.approx(TRAITS.preferred_speed_m_s)
     assert w == 0.0
 
@@ -47,7 +47,7 @@ def test_one_slows_down_for_a_corner_in_time(route):
     corner = sharp_corners(route)[0]
     arcs = np.linspace(corner.start - 1.0, corner.start, 21)
     speeds = [
-        intend(TRAITS, SKILLED, Authority(1.0), route, Situation(a, 0.3, 0.0, corner)).v
+        intend(TRAITS, SKILLED, TurnResponse(1.0), route, Situation(a, 0.3, 0.0, corner)).v
         for a in arcs
     ]
     assert (np.diff(speeds) <= 1e-12).all()
@@ -57,7 +57,7 @@ def test_one_slows_down_for_a_corner_in_time(route):
 def test_far_off_the_direction_one_turns_before_going_on(route):
     """With the way behind one's shoulder the speed is no more than that for corners."""
     now = Situation(arc=1.0, speed=0.2, error=-2.0, corner=None)
-    command = intend(TRAITS, SKILLED, Authority(1.0), route, now)
+    command = intend(TRAITS, SKILLED, TurnResponse(1.0), route, now)
     assert command.v <= TRAITS.corner_speed_m_s
     assert command.w < -0.45
 
@@ -68,14 +68,14 @@ def test_a_limited_person_pushes_the_stick_to_its_end(route):
     now = Situation(arc=1.0, speed=0.2, error=-0.3, corner=None)
     assert intend(traits, SKILLED, limited(), route, now).w < -0.5
     other = replace(now, error=0.3)
-    free = intend(traits, SKILLED, Authority(1.0), route, other)
+    free = intend(traits, SKILLED, TurnResponse(1.0), route, other)
     assert intend(traits, SKILLED, limited(), route, other).w == free.w
 
 
 def test_a_limited_person_is_slower_in_right_bends(route):
     """Knowing that the chair turns slowly, one goes slowly where it must turn."""
     now = Situation(arc=4.8, speed=0.3, error=-0.2, corner=None)
-    free = intend(TRAITS, SKILLED, Authority(1.0), route, now)
+    free = intend(TRAITS, SKILLED, TurnResponse(1.0), route, now)
     assert intend(TRAITS, SKILLED, limited(), route, now).v < free.v
 
 
@@ -84,16 +84,16 @@ def test_timid_turners_use_a_part_of_the_stick(route):
     corner = sharp_corners(route)[0]
     timid = replace(TRAITS, corner_deflection=0.4)
     inside = Situation(0.5 * (corner.start + corner.end), 0.1, -1.5, corner)
-    assert intend(timid, SKILLED, Authority(1.0), route, inside).w == pytest.approx(-0.2)
+    assert intend(timid, SKILLED, TurnResponse(1.0), route, inside).w == pytest.approx(-0.2)
     outside = Situation(1.0, 0.1, -1.5, corner)
-    assert intend(timid, SKILLED, Authority(1.0), route, outside).w < -0.45
+    assert intend(timid, SKILLED, TurnResponse(1.0), route, outside).w < -0.45
 
 
 def test_directions_mirror(route):
     """Left and right are alike for who is not limited."""
     left = Situation(1.0, 0.3, 0.3, None)
     right = Situation(1.0, 0.3, -0.3, None)
-    a = intend(TRAITS, SKILLED, Authority(1.0), route, left)
-    b = intend(TRAITS, SKILLED, Authority(1.0), route, right)
+    a = intend(TRAITS, SKILLED, TurnResponse(1.0), route, left)
+    b = intend(TRAITS, SKILLED, TurnResponse(1.0), route, right)
     assert a.v == b.v
     assert math.isclose(a.w, -b.w)

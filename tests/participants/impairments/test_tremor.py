@@ -11,7 +11,7 @@ from scipy import signal
 from lad.command import STILL, Command
 from participants.impairments.tremor import HIGHEST, LOWEST, Tremor, amplitude, tremor
 from participants.setup import ImpairmentSetup
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
 
 

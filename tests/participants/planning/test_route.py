@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from participants.planning.route import Route, plan
+from participants.planning.route import Route, plan_route
 from participants.planning.surroundings import known_raster
 from protocols.pose import Pose
 from protocols.wheelchair import WIDTH
@@ -48,7 +48,7 @@ def test_a_place_near_the_last_one_is_preferred_unless_it_is_far_off(bend):
 
 def test_the_plan_of_the_default_course_is_smooth_and_drivable(lab_office):
     """Points lie evenly, the direction never jumps, and the chair fits all along."""
-    route = plan(lab_office)
+    route = plan_route(lab_office)
     steps = np.hypot(*np.diff(route.points, axis=0).T)
     assert steps.max() < 0.06
     assert np.abs(np.diff(route.headings)).max() < 0.3
@@ -57,4 +57,4 @@ def test_the_plan_of_the_default_course_is_smooth_and_drivable(lab_office):
     assert min(rooms) > WIDTH / 2
     assert len(route.gate_arcs) == 3
     assert list(route.gate_arcs) == sorted(route.gate_arcs)
-    assert plan(lab_office) is route
+    assert plan_route(lab_office) is route

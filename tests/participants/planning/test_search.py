@@ -9,7 +9,7 @@ from participants.planning.search import cheapest_path
 from protocols.course.gates import GateCounter
 from protocols.course.occupancy import occupancy
 from protocols.course.schema import Course
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.wheelchair import WIDTH
 
 

@@ -7,7 +7,7 @@ import pytest
 from protocols import wheelchair
 from protocols.course.drivable import check_drivable, footprint, undrivable
 from protocols.course.schema import Course
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.load import load_course, shipped_courses
 
 

@@ -6,7 +6,7 @@ import pytest
 from pydantic import ValidationError
 
 from protocols.course.schema import Course
-from protocols.fault import InconsistentError
+from protocols.files.fault import InconsistentError
 
 
 def _fault(data):

@@ -8,7 +8,7 @@ import pandas as pd
 import pyarrow as pa
 import pytest
 
-from protocols.dump import plain_yaml
+from protocols.files.dump import plain_yaml
 from protocols.load import resolve_study
 from protocols.record.recorder import StepRecorder
 from protocols.record.rows import LapRow, ParticipantRow, SurveyRow, participant_id

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.load import resolve_study
 from protocols.record.header import read_header
 from protocols.record.session import SessionRecord, encode
-from protocols.record.store import finished_sessions, held, open_folder, write_session
+from protocols.record.store import finished_sessions, locked, open_folder, write_session
 from protocols.resolved import ResolvedStudy
 
 
@@ -91,18 +91,18 @@ def test_killed_before_the_head_was_written_starts_over(tmp_path: Path, plan: Re
 def test_two_runs_cannot_write_into_one_folder(folder: Path, plan: ResolvedStudy):
     """While one run holds the folder, another is refused; afterwards it is not."""
     with (
-        held(folder),
+        locked(folder),
         pytest.raises(InputError, match="another run is writing into it"),
-        held(folder),
+        locked(folder),
     ):
         pytest.fail("held twice")
-    with held(folder):
+    with locked(folder):
         open_folder(folder, plan, 0)
 
 
 def test_a_folder_is_held_before_it_is_a_study(tmp_path: Path, plan: ResolvedStudy):
     """A lock alone is no study, and nothing else either: a run killed right then starts over."""
-    with held(tmp_path / "new"):
+    with locked(tmp_path / "new"):
         assert [p.name for p in (tmp_path / "new").iterdir()] == [".lock"]
     open_folder(tmp_path / "new", plan, 0)
 
@@ -118,7 +118,7 @@ def test_a_file_system_without_locks_is_refused_by_name(
     monkeypatch.setattr("fcntl.flock", flock)
     with (
         pytest.raises(InputError, match=r"new: cannot be locked .*Function not implemented"),
-        held(tmp_path / "new"),
+        locked(tmp_path / "new"),
     ):
         pytest.fail("held")
 
@@ -132,7 +132,7 @@ def test_a_folder_that_cannot_be_written_is_refused_by_name(
         raise OSError(errno.EROFS, "Read-only file system")
 
     monkeypatch.setattr(Path, "touch", touch)
-    with pytest.raises(InputError, match=r"cannot be written: Read-only"), held(tmp_path):
+    with pytest.raises(InputError, match=r"cannot be written: Read-only"), locked(tmp_path):
         pytest.fail("held")
 
 

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import Any
 
-from protocols.dump import to_yaml
+from protocols.files.dump import to_yaml
 from protocols.load import resolve_study
 from protocols.record.identity import differences, study_digest
 from protocols.resolved import ResolvedStudy

@@ -7,7 +7,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.record import merge
 from protocols.record.merge import build_tables
 from protocols.record.reader import open_study

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.record.parquet import parquet_bytes, parquet_shape, read_parquet
 
 _TABLE = pa.table({"a": [1, 2, 3], "b": ["x", None, "z"], "c": [0.1, 0.2, 0.3]})

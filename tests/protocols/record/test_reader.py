@@ -9,7 +9,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from protocols.errors import InputError
+from protocols.files.errors import InputError
 from protocols.record.check import check_study
 from protocols.record.reader import off_scale, open_study
 from protocols.record.session import SessionRecord, encode
@@ -105,8 +105,8 @@ def test_a_missing_table_says_how_to_finish(folder: Path):
 def test_another_schema_version_is_refused(folder: Path):
     """A study of a later version is not misread."""
     path = folder / "study.yaml"
-    path.write_text(path.read_text().replace("schema: 1", "schema: 9", 1))
-    assert _refused(folder) == f"{path}:1: schema: 9 is not allowed here; allowed: 1"
+    path.write_text(path.read_text().replace("schema: 2", "schema: 9", 1))
+    assert _refused(folder) == f"{path}:1: schema: 9 is not allowed here; allowed: 1, 2"
 
 
 def test_failed_sessions_are_those_still_missing(folder: Path):
@@ -156,7 +156,9 @@ def test_an_answer_off_the_scale_is_named(folder: Path, given: int):
 def test_answers_from_elsewhere_are_not_refused(folder: Path):
     """Nobody can run that study again: it opens, and whoever reads the answers is told."""
     header = folder / "study.yaml"
-    header.write_text(re.sub("(?m)^seed: .*$", "seed: null", header.read_text()))
+    header.write_text(
+        re.sub("(?m)^seed: .*\norigin: .*$", "seed: null\norigin: elsewhere", header.read_text())
+    )
     path = folder / "surveys.parquet"
     answers = pq.read_table(path)
     place = answers.schema.get_field_index("response")

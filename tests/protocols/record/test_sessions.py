@@ -86,7 +86,7 @@ def test_a_write_error_at_any_moment_leaves_no_session(
 
     write_session(tmp_path, "P0002", session_files["P0002"])
     with monkeypatch.context() as patch:
-        for name in ("write_through", "sync_folder", "_put_aside"):
+        for name in ("write_through", "sync_folder", "_delete"):
             patch.setattr(sessions, name, failing(getattr(sessions, name)))
         with contextlib.suppress(OSError):
             write_session(tmp_path, "P0001", session_files["P0001"])
@@ -113,7 +113,7 @@ def dying(original):
             os._exit(9)
         return original(*args)
     return call
-for name in ("write_through", "sync_folder", "_put_aside"):
+for name in ("write_through", "sync_folder", "_delete"):
     setattr(sessions, name, dying(getattr(sessions, name)))
 sessions.write_session(Path(sys.argv[1]), "P0001", pickle.load(sys.stdin.buffer))
 """
@@ -176,6 +176,6 @@ def test_a_flipped_bit_is_found_by_its_checksum(tmp_path: Path, session_files: d
 
 def test_a_foreign_manifest_is_none(tmp_path: Path):
     """Something else in the manifest's place is no manifest."""
-    (tmp_path / "manifest.json").write_text('{"schema": 2, "files": {}, "versions": {}}')
+    (tmp_path / "manifest.json").write_text('{"schema": 9, "files": {}, "versions": {}}')
     assert read_manifest(tmp_path) is None
     assert read_manifest(tmp_path / "nowhere") is None

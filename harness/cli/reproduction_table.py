@@ -1,0 +1,34 @@
+"""The table a person wants to see when the paper has been reproduced."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from rich import box
+from rich.table import Table
+
+from harness.cli.console import OUT
+
+if TYPE_CHECKING:
+    from analysis.reproduction.row import Row
+
+
+def print_rows(rows: "Sequence[Row]") -> None:
+    """Print what the paper prints too, or what has a verdict: the paper's number, ours, verdict."""
+    from analysis.reproduction.printed import VERDICT_TEXT, number_of
+
+    table = Table(box=box.SIMPLE_HEAD, title="The paper and ours", title_justify="left")
+    table.add_column("quantity", no_wrap=True)
+    for heading in ("unit", "paper", "ours", "n", "verdict"):
+        table.add_column(heading, justify="right")
+    for row in rows:
+        if row.paper is None and row.tolerance is None:
+            continue
+        table.add_row(
+            row.quantity,
+            row.unit,
+            number_of(row, row.paper),
+            number_of(row, row.ours),
+            str(row.n),
+            VERDICT_TEXT[row.verdict],
+        )
+    OUT.print(table)

@@ -1,0 +1,178 @@
+"""Tasks on this machine's cores: one process each, and one that dies takes nobody with it.
+
+Every worker has a pipe of its own, so the runner knows what each is doing: when one is killed, its
+number is given to another, and the others do not notice. When the runner is killed, its ends of
+the pipes close, and each worker ends with the task it is in.
+"""
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections import Counter, deque
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from multiprocessing import forkserver
+from multiprocessing.connection import Connection, wait
+from typing import Any, Self, TypeVar, cast
+
+from harness.running.workers import MAX_DEATHS, Died
+
+T = TypeVar("T")
+
+_FORKS = "forkserver" in multiprocessing.get_all_start_methods()
+_CONTEXT = (
+    multiprocessing.get_context("forkserver") if _FORKS else multiprocessing.get_context("spawn")
+)
+_ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "BLIS")}
+"""For linear algebra: the cores are taken by other sessions."""
+
+
+def warm_up(modules: Iterable[str]) -> None:
+    """Start, in the background, the process that workers are forked from.
+
+    It imports ``modules`` once for all of them, while this process goes on; where there is no
+    forking, every worker imports for itself.
+    """
+    if not _FORKS:
+        return
+    _CONTEXT.set_forkserver_preload(list(modules))
+    # A folder in the working directory must not hide an installed package there.
+    with _environment({**_ONE_THREAD, "PYTHONSAFEPATH": "1"}), _deaf_to_interrupts():
+        forkserver.ensure_running()
+
+
+class Processes:
+    """Worker processes; a context, at whose end they are gone.
+
+    Parameters
+    ----------
+    jobs
+        How many, 1 or more.
+    """
+
+    def __init__(self, jobs: int) -> None:
+        self._jobs = jobs
+        self._idle: list[_Worker] = []
+        self._busy: dict[Connection, tuple[_Worker, int]] = {}
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        workers = [*self._idle, *(worker for worker, _ in self._busy.values())]
+        for worker in workers:
+            worker.dismiss()
+        for worker in workers:
+            worker.process.join()
+
+    def run(
+        self, task: Callable[[int], T], numbers: Iterable[int]
+    ) -> Iterator[tuple[int, T | Died]]:
+        """Run a task for every number, and yield each with its answer as soon as it is there.
+
+        Parameters
+        ----------
+        task
+            Has to be importable in another process; so has its answer.
+        numbers
+            Each is given to one process; to another one, when that dies.
+        """
+        waiting, deaths = deque(numbers), Counter[int]()
+        while waiting or self._busy:
+            self._assign(task, waiting)
+            for pipe in cast("list[Connection]", wait(list(self._busy))):
+                worker, number = self._busy.pop(pipe)
+                answer: T | Died = worker.answer()
+                if isinstance(answer, Died):
+                    deaths[number] += 1
+                    answer = Died(answer.reason, retried=deaths[number] < MAX_DEATHS)
+                    if answer.retried:
+                        waiting.append(number)
+                else:
+                    self._idle.append(worker)
+                # At once: what the caller does with the answer must not keep a core waiting.
+                self._assign(task, waiting)
+                yield number, answer
+
+    def _assign(self, task: Callable[[int], Any], waiting: deque[int]) -> None:
+        while waiting and len(self._busy) < self._jobs:
+            worker = self._idle.pop() if self._idle else _Worker()
+            number = waiting.popleft()
+            self._busy[worker.pipe] = (worker, number)
+            with suppress(OSError):  # it is dead, which its answer is going to say
+                worker.pipe.send((task, number))
+
+
+class _Worker:
+    """A process, and this end of its pipe."""
+
+    def __init__(self) -> None:
+        self.pipe, theirs = _CONTEXT.Pipe()
+        self.process = _CONTEXT.Process(target=_serve, args=(theirs,), daemon=True)
+        with _environment(_ONE_THREAD):
+            self.process.start()
+        theirs.close()  # else a dead worker's pipe would stay open
+
+    def answer(self) -> Any:
+        """Return what the worker answers; ``Died``, and the worker has, when it has none."""
+        try:
+            answer = self.pipe.recv()
+        except (EOFError, OSError):
+            self._end()
+            return Died(_cause(self.process.exitcode))
+        if isinstance(answer, Died):
+            self._end()
+        return answer
+
+    def dismiss(self) -> None:
+        """End the worker, whatever it is doing; it holds nothing that could be lost."""
+        self.pipe.close()
+        self.process.terminate()
+
+    def _end(self) -> None:
+        self.dismiss()
+        self.process.join()
+
+
+def _serve(pipe: Connection) -> None:
+    """Answer until the runner has gone."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the runner's to handle
+    with suppress(EOFError, OSError):
+        while True:
+            task, number = pipe.recv()
+            pipe.send(task(number))
+
+
+def _cause(exit_code: int | None) -> str:
+    if exit_code is not None and exit_code < 0:
+        return f"its process was killed by {signal.Signals(-exit_code).name}"
+    return f"its process ended by itself with exit code {exit_code}"
+
+
+@contextmanager
+def _environment(variables: Mapping[str, str]) -> Iterator[None]:
+    """Set environment variables for processes that start now."""
+    kept = {name: os.environ.get(name) for name in variables}
+    os.environ.update(variables)
+    try:
+        yield
+    finally:
+        for name, value in kept.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
+
+
+@contextmanager
+def _deaf_to_interrupts() -> Iterator[None]:
+    """Have processes that start now ignore Ctrl-C from their first moment."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    kept = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, kept)

@@ -1,0 +1,179 @@
+"""Run a study: the missing sessions, then the tables. The runner alone writes."""
+
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from harness.running.open_workers import open_workers
+from harness.running.sessions import run_sessions, try_parts
+from harness.running.workers import Died, Failed, Finished
+from harness.session.study_run import StudyRun, portable
+from protocols.record.header import StudyHeader
+from protocols.record.rows import participant_id
+from protocols.record.store import (
+    build_tables,
+    clear_failure,
+    failures,
+    finished_sessions,
+    locked,
+    open_folder,
+    raised,
+    refuse_another_study,
+    write_death,
+    write_failure,
+    write_given_up,
+    write_session,
+    write_timing,
+    write_warnings,
+)
+
+Tell = Callable[[int, int], None]
+"""Called with the number of sessions that have ended, and the number planned."""
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """How a run ended.
+
+    Attributes
+    ----------
+    planned
+        Participants the study has.
+    found
+        Sessions that were there already.
+    finished
+        Sessions this run finished.
+    failed
+        Participants whose session raised, in this run or, left alone, in an earlier one, or was
+        given up because its processes died.
+    """
+
+    planned: int
+    found: int
+    finished: int
+    failed: tuple[str, ...]
+
+
+def run_study(
+    run: StudyRun,
+    out: Path,
+    jobs: int,
+    tell: Tell | None = None,
+    *,
+    scheduler: str | None = None,
+    retry_failed: bool = False,
+) -> Outcome:
+    """Run a study, or what is missing of it.
+
+    Parameters
+    ----------
+    plan
+        The study and its seed.
+    out
+        The study directory; made when it does not exist. Finished sessions in it are kept.
+    jobs
+        Number of processes, 1 or more.
+    tell
+        Told whenever a session has ended.
+    scheduler
+        Address of a Dask scheduler whose workers run the sessions; only this process writes.
+    retry_failed
+        Whether sessions that raised in an earlier run are run again.
+
+    Raises
+    ------
+    InputError
+        When somebody the protocol names cannot be made, or ``out`` holds something else, or
+        another study; nothing is touched then.
+    OSError
+        When something cannot be written, or no worker can be had; what was finished is kept.
+    """
+    run = portable(run)
+    header = refuse_another_study(out, run.study, run.seed)
+    if header and not _missing(_named(run, header), out, retry_failed=retry_failed):
+        return _complete(run, out)
+    with open_workers(jobs, scheduler) as workers:
+        try_parts(workers, run)
+        with _opened(run, out) as named:
+            missing = _missing(named, out, retry_failed=retry_failed)
+            before = len(_planned(run)) - len(missing)
+            counted = (lambda ended: tell(before + ended, len(_planned(run)))) if tell else None
+            finished = _write(out, run_sessions(workers, named, missing), counted)
+            build_tables(out, named.digest)
+            return _outcome(named, out, finished)
+
+
+def _complete(run: StudyRun, out: Path) -> Outcome:
+    """Put a study in order whose sessions are all there."""
+    with _opened(run, out) as named:
+        build_tables(out, named.digest)
+        return _outcome(named, out, 0)
+
+
+@contextmanager
+def _opened(run: StudyRun, out: Path) -> Iterator[StudyRun]:
+    """Hold the study directory, in order, while a run writes into it."""
+    with locked(out):
+        yield _named(run, open_folder(out, run.study, run.seed))
+
+
+def _named(run: StudyRun, header: StudyHeader) -> StudyRun:
+    """Return the plan with the name that the directory's sessions give their study."""
+    return replace(run, digest=header.digest)
+
+
+def _planned(run: StudyRun) -> range:
+    return range(1, run.study.protocol.cohort.participants + 1)
+
+
+def _missing(run: StudyRun, out: Path, *, retry_failed: bool) -> list[int]:
+    """Return who has neither finished nor, left alone, failed.
+
+    A session whose processes died is missing: memory may have been short, or a machine taken away.
+    """
+    settled = set(finished_sessions(out, run.digest))
+    if not retry_failed:
+        settled.update(raised(out))
+    return [number for number in _planned(run) if participant_id(number) not in settled]
+
+
+def _write(
+    out: Path,
+    sessions: Iterable[tuple[int, Finished | Failed | Died]],
+    tell: Callable[[int], None] | None,
+) -> int:
+    """Write each session as it comes in; return how many finished."""
+    finished = ended = 0
+    if tell:
+        tell(0)
+    for number, session in sessions:
+        name = participant_id(number)
+        if isinstance(session, Died) and session.retried:
+            write_death(out, name, session.reason)
+            continue
+        clear_failure(out, name)
+        if isinstance(session, Finished):
+            _keep(out, name, session)
+            finished += 1
+        elif isinstance(session, Failed):
+            write_failure(out, name, session.trace)
+        else:
+            write_given_up(out, name, session.reason)
+        ended += 1
+        if tell:
+            tell(ended)
+    return finished
+
+
+def _keep(out: Path, name: str, session: Finished) -> None:
+    write_session(out, name, session.files)
+    write_timing(out, name, session.wall_s)
+    write_warnings(out, name, session.warned)
+
+
+def _outcome(run: StudyRun, out: Path, finished: int) -> Outcome:
+    planned = [participant_id(number) for number in _planned(run)]
+    there = set(finished_sessions(out, run.digest))
+    failed = tuple(name for name in failures(out) if name in planned and name not in there)
+    return Outcome(len(planned), len(there.intersection(planned)) - finished, finished, failed)

@@ -1,0 +1,67 @@
+"""The seam that runs tasks in other processes, and what comes back from one."""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Protocol, TypeVar
+
+T = TypeVar("T")
+
+MAX_DEATHS = 3
+"""Processes that may die of one number before it is given up."""
+
+
+@dataclass(frozen=True, slots=True)
+class Died:
+    """The process that ran a task ended without an answer.
+
+    A task may answer this itself, to say that its process is unfit for any task: the process is
+    then ended, and the number tried in another one.
+
+    Attributes
+    ----------
+    reason
+        What is known about it, as a sentence's end.
+    retried
+        Whether the number is tried again.
+    """
+
+    reason: str
+    retried: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Finished:
+    """A session as the bytes of its files.
+
+    Attributes
+    ----------
+    files
+        Name to content.
+    wall_s
+        How long it took, s.
+    warned
+        What Python warned of meanwhile.
+    """
+
+    files: dict[str, bytes]
+    wall_s: float
+    warned: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Failed:
+    """A session that raised, with the traceback."""
+
+    trace: str
+
+
+class Workers(Protocol):
+    """Run a task for many numbers in other processes."""
+
+    def run(
+        self, task: Callable[[int], T], numbers: Iterable[int]
+    ) -> Iterator[tuple[int, T | Died]]:
+        """Yield each number with its answer as soon as it is there.
+
+        A task may run again when its process died; it is answered once.
+        """

@@ -1,0 +1,155 @@
+"""What is applied in a session is written down before it acts; so a killed session can go on."""
+
+import os
+from collections import deque
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Protocol
+
+from harness.session.clock import Timing
+from lad.assistant import Assistance
+from lad.command import Command
+from participants.survey import Answer
+from protocols.files.errors import InputError
+from protocols.record.atomic import naming, sync_folder
+from protocols.record.journal import (
+    Entry,
+    JournalHeader,
+    RecordedJournal,
+    drop_torn_line,
+    entry_line,
+    read_journal,
+    refuse_other_journal,
+)
+
+
+class Journal(Protocol):
+    """Is told what is applied, in the order in which it is."""
+
+    def stage(self, index: int, kind: str, lap: int | None) -> None:
+        """Note that a stage begins."""
+
+    def tick(
+        self, command: Command | None, demonstrator: Assistance | None, timing: Timing | None
+    ) -> None:
+        """Note what people gave in one control step, and how its start kept to the clock."""
+
+    def broken_off(self, reason: str, note: str | None) -> None:
+        """Note that a lap ends before its time."""
+
+    def answers(self, answers: Sequence[Answer]) -> None:
+        """Note the answers to one questionnaire."""
+
+    def page(self, kind: str, entered: Mapping[str, Answer]) -> None:
+        """Note what was entered on a page."""
+
+
+class FileJournal:
+    """A journal in a file that is only ever appended to.
+
+    With entries of an earlier process, it first checks that the session says again, line by line,
+    what is there already; only then does it append. So a session that is replayed is proved equal
+    to the one that was killed.
+
+    Parameters
+    ----------
+    path
+        The file; its folder exists.
+    header
+        Whose session it is.
+
+    Raises
+    ------
+    InputError
+        When the file is another session's journal, or damaged before its last line.
+    """
+
+    def __init__(self, path: Path, header: JournalHeader) -> None:
+        self._path = path
+        self.replayed: deque[Entry] = deque()
+        recorded = _recorded(path)
+        if recorded is not None:
+            refuse_other_journal(recorded, header)
+            drop_torn_line(recorded)
+            self.replayed.extend(recorded.entries)
+        # Unbuffered: a line that was written survives the process, whatever kills it.
+        with naming(path):
+            self._file = path.open("ab", buffering=0)
+        if recorded is None:
+            self._file.write(entry_line(header.line()))
+            sync_folder(path.parent)
+
+    def close(self) -> None:
+        """Wait until every line is on the disk, and close the file."""
+        self.sync()
+        self._file.close()
+
+    def sync(self) -> None:
+        """Wait until every line is on the disk: survives the machine, not only the process."""
+        os.fsync(self._file.fileno())
+
+    def stage(self, index: int, kind: str, lap: int | None) -> None:
+        """Note that a stage begins."""
+        self._note({"stage": [index, kind, lap]})
+
+    def tick(
+        self, command: Command | None, demonstrator: Assistance | None, timing: Timing | None
+    ) -> None:
+        """Note what people gave in one control step."""
+        self._note({"tick": tick_entry(command, demonstrator, timing)})
+
+    def broken_off(self, reason: str, note: str | None) -> None:
+        """Note that a lap ends before its time."""
+        self._note({"end": [reason, note]})
+
+    def answers(self, answers: Sequence[Answer]) -> None:
+        """Note the answers to one questionnaire."""
+        self._note({"answers": list(answers)})
+
+    def page(self, kind: str, entered: Mapping[str, Answer]) -> None:
+        """Note what was entered on a page."""
+        self._note({"page": [kind, dict(entered)]})
+
+    def _note(self, entry: Entry) -> None:
+        line = entry_line(entry)
+        if not self.replayed:
+            with naming(self._path):
+                self._file.write(line)
+            return
+        before = self.replayed.popleft()
+        if entry_line(before) != line:
+            raise InputError(
+                f"{self._path}: the replayed session differs from the journal: "
+                f"{entry_line(before).decode().strip()} there, {line.decode().strip()} now"
+            )
+
+
+def tick_entry(
+    command: Command | None, demonstrator: Assistance | None, timing: Timing | None
+) -> dict[str, Any]:
+    """Return a control step's entry: ``u`` the driver's command, ``d`` the demonstrator, ``t``.
+
+    ``u`` is [v, w]; without it the driver gave no new command. ``d`` is [0] or, where the
+    demonstrator helps, [1, v, w] or [1] without a command; without ``d`` there is no
+    demonstrator. ``t`` is [late, shift, paused], s; without it time is simulated.
+    """
+    entry: dict[str, Any] = {}
+    if command is not None:
+        entry["u"] = _pair(command)
+    if demonstrator is not None:
+        given = demonstrator.command if demonstrator.helping else None
+        entry["d"] = [int(demonstrator.helping), *(_pair(given) if given is not None else ())]
+    if timing is not None:
+        entry["t"] = [timing.late_s, timing.shift_s, timing.paused_s]
+    return entry
+
+
+def _pair(command: Command) -> list[float]:
+    return [float(command.v), float(command.w)]
+
+
+def _recorded(path: Path) -> RecordedJournal | None:
+    if not path.exists() or not path.read_bytes().count(b"\n"):
+        path.unlink(missing_ok=True)  # not even its first line was written
+        return None
+    return read_journal(path)

@@ -1,0 +1,258 @@
+"""One lap: the order in which things happen in a control step, and when a lap ends."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.session.arbitration import Arbitration
+from harness.session.clock import Clock, LapStoppedError, Timing
+from harness.session.journal import Journal
+from harness.session.limitation import Limitation
+from harness.world.world import Observation, World
+from lad.assistant import NO_ASSISTANCE, Assistance, Assistant, Learner
+from lad.command import STILL, Command
+from lad.inputs import as_inputs
+from participants.driver import Driver, WithdrewError
+from participants.sight import Onlooker, Sight
+from protocols.condition import AssistantRole
+from protocols.course.gates import GateCounter
+from protocols.record.rows import EndReason
+
+HOLD_S = 0.3
+"""How long a driver's last command stays in force without a new one, s, unless a study says."""
+
+
+@dataclass(frozen=True, slots=True)
+class LapParts:
+    """What takes part in a lap: one drives, the others help or only watch.
+
+    Attributes
+    ----------
+    driver
+        Sits in the chair.
+    demonstrator
+        Helps, or as a shadow says what it would do; None for a study without one.
+    model
+        Predicts in every step, and helps where the condition says so.
+    """
+
+    driver: Driver
+    demonstrator: Assistant | None
+    model: Assistant
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """What holds in a lap.
+
+    Attributes
+    ----------
+    limitation
+        What the study does to the driver's command.
+    assistant
+        Whose help counts; the others watch.
+    arbitration
+        How the driver's and the assistant's commands become one.
+    safeguarded
+        Whether the last guard against hard collisions is on.
+    training
+        Whether the model learns from the demonstrator, after each step is recorded.
+    time_limit_s
+        A lap that takes longer ends unfinished.
+    hold_s
+        How long a driver's last command stays in force without a new one; then the chair is told
+        to stand.
+    """
+
+    limitation: Limitation
+    assistant: AssistantRole
+    arbitration: Arbitration
+    safeguarded: bool
+    training: bool
+    time_limit_s: float
+    hold_s: float = HOLD_S
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """Everything that was seen, answered and done in one control step.
+
+    Attributes
+    ----------
+    input_age_s
+        How old the driver's command is that was used; 0 for one given in this step.
+    timing
+        How the step's start kept to the wall clock; None in simulated time.
+    """
+
+    seen: Observation
+    x: NDArray[np.float64]
+    intent: Command
+    demonstrator: Assistance | None
+    model: Assistance
+    control: str
+    arbitrated: Command
+    executed: Command
+    result: Observation
+    input_age_s: float
+    timing: Timing | None
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """How a lap ended.
+
+    Attributes
+    ----------
+    reason
+        As the record has it.
+    t
+        Lap time at its end, s.
+    gates_passed
+        How many gates were crossed in order.
+    note
+        A withdrawal in the participant's words, or why the lap was stopped.
+    last
+        The observation after the last step.
+    """
+
+    reason: EndReason
+    t: float
+    gates_passed: int
+    note: str | None
+    last: Observation
+
+
+class Recorder(Protocol):
+    """Writes steps down."""
+
+    def record(self, step: Step) -> None:
+        """Keep one step."""
+
+
+class Lap:
+    """A lap in progress.
+
+    Parameters
+    ----------
+    world
+        Reset to the start of the lap.
+    parts
+        The ``start_lap`` of each has been called.
+    rules
+        What holds in this lap.
+    gates
+        Counts the gates from the start.
+    journal
+        Told what is applied in each step before the world moves; None for no journal.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        parts: LapParts,
+        rules: Rules,
+        gates: GateCounter,
+        journal: Journal | None = None,
+    ) -> None:
+        self._world = world
+        self._parts = parts
+        self._rules = rules
+        self._gates = gates
+        self._journal = journal
+        self._seen = world.observe()
+        self._intent = STILL
+        self._intent_t = self._seen.t
+        self._helped = False
+        # Asked once: a protocol's isinstance costs more than a model's prediction.
+        self._onlookers = list(_onlookers(parts))
+        learns = rules.training and isinstance(parts.model, Learner)
+        self._learner: Learner | None = parts.model if learns else None  # type: ignore[assignment]
+
+    def drive(self, recorder: Recorder, clock: Clock) -> Ending:
+        """Drive until the last gate, the time limit, a withdrawal or the clock's stop."""
+        timing = clock.start()
+        while self._seen.t < self._rules.time_limit_s:
+            try:
+                step = self._step(timing)
+                recorder.record(step)
+                if self._learner is not None and step.demonstrator is not None:
+                    self._learner.learn(step.demonstrator.helping, step.demonstrator.command)
+                crossed = self._gates.advance(step.seen.pose, step.result.pose)
+                if crossed is not None and self._gates.finished:
+                    return self._ending("finished", step.seen.t + crossed * self._world.period)
+                timing = clock.wait_until(step.result.t)
+            except WithdrewError as withdrawal:
+                return self._broken_off("withdrew", str(withdrawal))
+            except LapStoppedError as stop:
+                return self._broken_off(stop.reason, stop.note)
+        return self._ending("time_limit", self._seen.t)
+
+    def _step(self, timing: Timing | None) -> Step:
+        """Observe, drive, limit, assist, arbitrate, safeguard, move: the one place with the order.
+
+        Prediction comes before learning, so what is recorded is out of sample.
+        """
+        seen, rules, parts = self._seen, self._rules, self._parts
+        sight = self._sight(seen)
+        answer = parts.driver.act(sight)
+        intent, age = self._held(answer, seen.t)
+        limited = rules.limitation(intent)
+        x = as_inputs(limited, seen.velocity, seen.segments)
+        for onlooker in self._onlookers:  # only who stands in the room gets to see it
+            onlooker.look(sight)
+        demonstrator = None if parts.demonstrator is None else parts.demonstrator.assist(x)
+        model = parts.model.assist(x)
+        by_role = {"none": NO_ASSISTANCE, "demonstrator": demonstrator, "model": model}
+        assistance = by_role[rules.assistant] or NO_ASSISTANCE
+        arbitrated = rules.arbitration(limited, assistance)
+        executed = self._world.safeguard(arbitrated) if rules.safeguarded else arbitrated
+        if self._journal is not None:
+            self._journal.tick(answer, demonstrator, timing)
+        self._world.step(executed)
+        self._helped = assistance.helping
+        self._seen = self._world.observe()
+        control = rules.assistant if assistance.helping else "driver"
+        return Step(
+            seen, x, intent, demonstrator, model, control, arbitrated, executed, self._seen,
+            age, timing,
+        )  # fmt: skip
+
+    def _held(self, answer: Command | None, t: float) -> tuple[Command, float]:
+        """Return the command in force and its age: a driver who says nothing is soon standing."""
+        if answer is not None:
+            self._intent, self._intent_t = answer, t
+            return answer, 0.0
+        age = t - self._intent_t
+        # The step's time is a multiple of the period: half a microsecond is rounding.
+        return (self._intent if age <= self._rules.hold_s + 5e-7 else STILL), age
+
+    def _sight(self, seen: Observation) -> Sight:
+        return Sight(
+            t=seen.t,
+            pose=seen.pose,
+            velocity=seen.velocity,
+            ranges=seen.ranges,
+            bearings=self._world.bearings,
+            laser=self._world.laser_offset,
+            gates_passed=self._gates.passed,
+            helped=self._helped,
+        )
+
+    def _broken_off(self, reason: EndReason, note: str | None) -> Ending:
+        if self._journal is not None:
+            self._journal.broken_off(reason, note)
+        return self._ending(reason, self._seen.t, note)
+
+    def _ending(self, reason: EndReason, t: float, note: str | None = None) -> Ending:
+        return Ending(reason, t, self._gates.passed, note, self._seen)
+
+
+def _onlookers(parts: LapParts) -> Iterator[Onlooker]:
+    assistants: tuple[object, ...] = (parts.demonstrator, parts.model)
+    for assistant in assistants:
+        if isinstance(assistant, Onlooker):
+            yield assistant

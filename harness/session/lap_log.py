@@ -1,0 +1,138 @@
+"""Writes a lap's steps down, and sums the lap up."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+
+from harness.session.lap import Ending, Step
+from lad.assistant import Assistance
+from protocols.course.centreline import Centreline
+from protocols.record.recorder import StepRecorder
+
+
+class LapLog:
+    """Records every stream of every step of one lap.
+
+    Parameters
+    ----------
+    centreline
+        The course's, for arc length and section: metrics only, nobody drives by them.
+    demonstrated
+        Whether the demonstrator drives in this lap; otherwise it is a shadow.
+    """
+
+    def __init__(self, centreline: Centreline, *, demonstrated: bool) -> None:
+        self._centreline = centreline
+        self._demonstrated = demonstrated
+        self._steps = StepRecorder()
+        self._near = 0.0
+        self._paused: list[float] = []
+
+    def record(self, step: Step) -> None:
+        """Keep one step."""
+        seen, pose = step.seen, step.seen.pose
+        result, timing = step.result.pose, step.timing
+        self._near, offset = self._centreline.locate(pose.x, pose.y, self._near)
+        section = self._centreline.section(self._near)
+        self._steps.append(
+            step.x,
+            step=len(self._steps),
+            t_s=seen.t,
+            intent_v=step.intent.v,
+            intent_w=step.intent.w,
+            **_demonstration(step.demonstrator, drives=self._demonstrated),
+            **_prediction(step.model),
+            control=step.control,
+            arbitrated_v=step.arbitrated.v,
+            arbitrated_w=step.arbitrated.w,
+            executed_v=step.executed.v,
+            executed_w=step.executed.w,
+            safeguarded=step.executed != step.arbitrated,
+            result_v=step.result.velocity.v,
+            result_w=step.result.velocity.w,
+            x_m=pose.x,
+            y_m=pose.y,
+            heading_rad=pose.heading,
+            arc_m=self._near,
+            offset_m=offset,
+            section=section.name,
+            section_kind=section.kind,
+            clearance_m=seen.clearance_m,
+            contact=step.result.contact,
+            input_age_s=step.input_age_s,
+            late_s=None if timing is None else timing.late_s,
+            shift_s=None if timing is None else timing.shift_s,
+            result_x_m=result.x,
+            result_y_m=result.y,
+            result_heading_rad=result.heading,
+        )
+        if timing is not None:
+            self._paused.append(timing.paused_s)
+
+    def table(self) -> pa.Table:
+        """Return the lap's steps."""
+        return self._steps.table()
+
+    def pauses(self) -> dict[str, Any]:
+        """Return the lap row's fields about pauses; empty for a lap in simulated time."""
+        if not self._paused:
+            return {}
+        return {
+            "pauses": sum(paused > 0 for paused in self._paused),
+            "paused_s": math.fsum(self._paused),
+        }
+
+
+def _demonstration(answer: Assistance | None, *, drives: bool) -> dict[str, Any]:
+    if answer is None:
+        return {}
+    h = 1 if answer.helping else -1
+    v, w = answer.command if answer.helping and answer.command else (None, None)
+    row: dict[str, Any] = {"h_would": h, "would_v": v, "would_w": w}
+    if drives:
+        row |= {"h": h, "a_v": v, "a_w": w}
+    return row
+
+
+def _prediction(answer: Assistance) -> dict[str, Any]:
+    v, w = answer.mean or (None, None)
+    return {"p_help": answer.p_help, "mean_v": v, "mean_w": w, "variance": answer.variance}
+
+
+def summary(steps: pa.Table, ending: Ending, period: float) -> dict[str, Any]:
+    """Sum a lap up from its own steps: the lap row's fields that follow from the record.
+
+    Parameters
+    ----------
+    steps
+        The lap's step table.
+    ending
+        How the lap ended.
+    period
+        Length of a control step, s.
+    """
+    contact = steps["contact"].to_numpy()
+    assisted = np.asarray(steps["control"]) != "driver"
+    finished = ending.reason == "finished"
+    return {
+        "completed": finished,
+        "end_reason": ending.reason,
+        "withdrawal": ending.note if ending.reason == "withdrew" else None,
+        "stop_reason": None if ending.reason == "withdrew" else ending.note,
+        "lap_time_s": ending.t if finished else None,
+        "duration_s": ending.t,
+        "steps": len(contact),
+        "collisions": _stretches(contact),
+        "contact_time_s": float(contact.sum()) * period,
+        "assisted_fraction": float(assisted.mean()) if len(assisted) else 0.0,
+        "interventions": _stretches(assisted),
+        "gates_passed": ending.gates_passed,
+        "last_segments": tuple(map(float, ending.last.segments)),
+    }
+
+
+def _stretches(on: np.ndarray[Any, np.dtype[np.bool_]]) -> int:
+    """Count the unbroken stretches of True."""
+    return int(np.count_nonzero(np.diff(on.astype(np.int8), prepend=0) == 1))

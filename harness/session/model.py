@@ -1,0 +1,64 @@
+"""The learning assistant a protocol names, and what of it goes into the record."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from lad.assistant import Assistant
+from lad.lad_assistant import LADAssistant
+from participants.part_loader import load_factory, refuse_missing_methods
+from protocols.files.errors import InputError
+from protocols.shipped_parts import MODELS
+from protocols.study import ModelChoice
+
+
+def make_model(choice: ModelChoice, words: Mapping[str, str] | None = None) -> Assistant:
+    """Return the assistant that learns in a study.
+
+    Somebody else's is named by a dotted path ``package.module:factory``; the factory takes the
+    protocol's options as keyword arguments.
+
+    Parameters
+    ----------
+    choice
+        As the protocol has it.
+    words
+        What stands for a word in braces in an option that is text: ``{participant}`` for the
+        participant's id, ``{folder}`` for the folder where relative paths start.
+
+    Raises
+    ------
+    InputError
+        When it cannot be imported, does not take the options, or is no assistant.
+    """
+    if choice.use in MODELS:
+        return LADAssistant(choice.parameters)
+    factory = load_factory("model", MODELS, choice.use)
+    try:
+        made = factory(**_filled_in(choice.options, words or {}))
+    except Exception as error:  # other people's code may fail in any way
+        reason = f"{type(error).__name__}: {error}"
+        raise InputError(f"model {choice.use!r}: cannot be made ({reason})") from error
+    refuse_missing_methods("model", choice.use, made, ("start_lap", "assist"))
+    assistant: Assistant = made
+    return assistant
+
+
+def _filled_in(options: Mapping[str, Any], words: Mapping[str, str]) -> dict[str, Any]:
+    filled = dict(options)
+    for name, value in options.items():
+        for word, said in words.items() if isinstance(value, str) else ():
+            filled[name] = filled[name].replace(f"{{{word}}}", said)
+    return filled
+
+
+def saved(model: Assistant) -> bytes | None:
+    """Return a model's portable bytes; None for one that cannot be saved."""
+    to_bytes = getattr(model, "to_bytes", None)
+    return to_bytes() if callable(to_bytes) else None
+
+
+def basis_vectors(model: Assistant) -> dict[str, Any]:
+    """Return the lap row's fields about the model's size; empty for a model without any."""
+    if not isinstance(model, LADAssistant):
+        return {}
+    return {"basis_vectors_when": model.when.n_basis, "basis_vectors_how": model.how.n_basis}

@@ -1,0 +1,49 @@
+"""A study to run."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from participants.registry import portable_driver_options
+from protocols.resolved import ResolvedStudy
+
+
+@dataclass(frozen=True, slots=True)
+class StudyRun:
+    """Everything a session depends on, besides the participant's number.
+
+    Attributes
+    ----------
+    study
+        Protocol, course and questionnaires.
+    seed
+        From which every draw comes; 0 or more.
+    digest
+        By which sessions say what study they belong to; None when they are not kept. It is the
+        study directory's own, which an earlier version may have computed.
+    """
+
+    study: ResolvedStudy
+    seed: int
+    digest: str | None = None
+
+
+def portable(run: StudyRun) -> StudyRun:
+    """Return the run in a form that does not depend on where it is carried out.
+
+    Files that the driver's options name are read here and now: sessions may run on machines that
+    do not have them.
+
+    Raises
+    ------
+    InputError
+        When such a file cannot be used.
+    """
+    study = run.study
+    folder = (study.folder or Path()).resolve()
+    driver = study.protocol.cohort.driver
+    options = portable_driver_options(driver.use, driver.options, folder)
+    if options != driver.options:
+        driver = driver.model_copy(update={"options": options})
+    cohort = study.protocol.cohort.model_copy(update={"driver": driver})
+    protocol = study.protocol.model_copy(update={"cohort": cohort})
+    return replace(run, study=replace(study, protocol=protocol, folder=folder))

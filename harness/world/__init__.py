@@ -1,0 +1,1 @@
+"""Where laps are driven: the seam every world fits, and the one in PyBullet."""

@@ -1,0 +1,76 @@
+"""From intention to stick: lag, dead band, the stick's end, and noise that grows with effort."""
+
+import math
+
+import numpy as np
+
+from lad.command import Command
+from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
+
+DEAD_BAND = 0.02
+"""Deflections below this share of the full one do nothing."""
+
+OVERSHOOT = 1.5
+"""How far beyond the stick's end a hand pushes at most, as a share of full deflection."""
+
+NOISE_TIME = 0.8
+"""Correlation time of the hand's noise, s: errors drift, they do not jump."""
+
+
+class Stick:
+    """One person's hand on the stick.
+
+    Noise is proportional to the deflection (Harris & Wolpert, 1998) and an Ornstein-Uhlenbeck
+    process in time; it enters before the hand's lag. A stick held at its end does not tremble.
+
+    Parameters
+    ----------
+    lag
+        Time constant with which the stick follows, s.
+    noise
+        Standard deviation as a share of the deflection.
+    rng
+        This lap's random numbers.
+    """
+
+    def __init__(self, lag: float, noise: float, rng: np.random.Generator) -> None:
+        self._lag = lag
+        self._noise = noise
+        self._rng = rng
+        self._errors = (float(rng.normal()), float(rng.normal()))
+        self._pushed = (0.0, 0.0)
+
+    def move(self, intention: Command, passed: float) -> Command:
+        """Return the command of the stick a time after the last one.
+
+        Parameters
+        ----------
+        intention
+            What the person would have the chair do, m/s and rad/s; may lie beyond the stick's end.
+        passed
+            Seconds since the last call.
+        """
+        keep = math.exp(-passed / NOISE_TIME)
+        spread = math.sqrt(1.0 - keep * keep)
+        fresh = self._rng.normal(size=2)
+        self._errors = (
+            keep * self._errors[0] + spread * float(fresh[0]),
+            keep * self._errors[1] + spread * float(fresh[1]),
+        )
+        follow = 1.0 - math.exp(-passed / self._lag)
+        wanted = (intention.v / MAX_SPEED, intention.w / MAX_TURN_RATE)
+        self._pushed = (
+            self._push(self._pushed[0], wanted[0], self._errors[0], follow),
+            self._push(self._pushed[1], wanted[1], self._errors[1], follow),
+        )
+        v, w = (_stick(pushed) for pushed in self._pushed)
+        return Command(v * MAX_SPEED, w * MAX_TURN_RATE)
+
+    def _push(self, now: float, wanted: float, error: float, follow: float) -> float:
+        reached = min(max(wanted, -OVERSHOOT), OVERSHOOT) * (1.0 + self._noise * error)
+        return now + follow * (reached - now)
+
+
+def _stick(pushed: float) -> float:
+    """Return the stick's deflection: nothing in the dead band, no farther than its end."""
+    return 0.0 if abs(pushed) < DEAD_BAND else min(max(pushed, -1.0), 1.0)
