@@ -89,7 +89,7 @@ def kill_at(folder, ticks):
     protocol = folder / "kills.yaml"
     protocol.write_text(json.dumps(PROTOCOL))
     done = subprocess.run(  # noqa: S603  # our own interpreter and code
-        [sys.executable, "-c", SCRIPT % TICKS, str(protocol), str(folder), ",".join(map(str, ticks))],
+        [sys.executable, "-c", SCRIPT % TICKS, protocol, folder, ",".join(map(str, ticks))],
         capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr[-3000:]
