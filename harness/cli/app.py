@@ -8,7 +8,17 @@ from typing import Annotated
 import typer
 from typer.exceptions import TyperException
 
-from harness.cli import check, listing, recover, replay, report, reproduce, run, validate
+from harness.cli import (
+    check,
+    check_part,
+    listing,
+    recover,
+    replay,
+    report,
+    reproduce,
+    run,
+    validate,
+)
 from protocols.files.errors import InputError
 
 app = typer.Typer(
@@ -52,6 +62,7 @@ app.command("reproduce")(reproduce.reproduce)
 app.command("replay")(replay.replay)
 app.command("validate")(validate.validate)
 app.command("check")(check.check)
+app.command("check-part")(check_part.check_part)
 app.command("recover")(recover.recover)
 app.command("protocols")(listing.protocols)
 app.command("courses")(listing.courses)
