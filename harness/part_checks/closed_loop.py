@@ -15,7 +15,7 @@ from harness.part_checks.role import (
     demonstrator_setup,
     driver_setup,
 )
-from harness.part_checks.setting import LAP_S, PARTICIPANT, Setting
+from harness.part_checks.setting import PARTICIPANT, Setting
 from harness.part_checks.shown import Moment
 from harness.part_checks.tape import PristineWorld, SightKeeper, Tape, moments
 from harness.session.arbitration import takeover
@@ -108,7 +108,7 @@ def drive(
     setting: Setting,
     plans: Sequence[LapPlan],
     *,
-    lap_s: float = LAP_S,
+    lap_s: float | None = None,
 ) -> Driven:
     """Drive laps with a part in its place; reference parts take the others.
 
@@ -126,14 +126,14 @@ def drive(
     plans
         The laps.
     lap_s
-        When each ends, s.
+        When each ends, s; as the setting has it when None.
     """
-    driven = Driven()
+    driven, end = Driven(), setting.lap_s if lap_s is None else lap_s
     keeper, parts = _places(role, part, setting)
     for lap, plan in enumerate(plans):
         tape, watched = Tape(role.name), PristineWorld(world)
         try:
-            goes_on = _drive_lap(watched, parts, setting, (lap, plan), (tape, lap_s))
+            goes_on = _drive_lap(watched, parts, setting, (lap, plan), (tape, end))
         except (Exception, SystemExit) as error:  # noqa: BLE001  # other people's code
             where = f"in step {len(tape.steps) + 1} of lap {lap + 1}"
             driven.fault, goes_on = Fault(lap, where, described(error)), False

@@ -7,7 +7,7 @@ from typing import Any
 from harness.part_checks.closed_loop import PLANS, Driven, bullet_world, drive, reference_laps
 from harness.part_checks.play import Played, play
 from harness.part_checks.role import Role
-from harness.part_checks.setting import LAP_S, Setting
+from harness.part_checks.setting import Setting
 from harness.part_checks.shown import Laps
 from harness.part_checks.source import PartSource
 from harness.session.model import saved
@@ -71,7 +71,7 @@ def gather(role: Role, source: PartSource, setting: Setting) -> Evidence:
 def _affordable(recorded: Laps, setting: Setting) -> float:
     """Return how long driven laps may be, s: no longer than a slow part can be shown."""
     steps = max((len(lap) for lap in recorded), default=0)
-    return min(LAP_S, max(20, steps) * setting.period)
+    return min(setting.lap_s, max(20, steps) * setting.period)
 
 
 def saved_if_possible(part: Any) -> bytes | None:

@@ -20,7 +20,9 @@ def plain(value: Any) -> Any:
     False
     """
     if isinstance(value, np.ndarray):
-        return (str(value.dtype), value.shape, tuple(map(plain, value.ravel().tolist())))
+        if value.dtype.hasobject:
+            return (value.shape, plain(value.tolist()))
+        return (str(value.dtype), value.shape, value.tobytes())
     if isinstance(value, np.random.Generator):
         return "random numbers"
     if is_dataclass(value) and not isinstance(value, type):

@@ -6,10 +6,6 @@ from protocols.course.schema import Course
 from protocols.instrument import Instrument
 from protocols.load import load_course, load_instrument
 
-LAP_S = 20.0
-"""Length of a lap in which a part is checked, s; the default course's first sharp corner and a
-demonstrator's help lie in it."""
-
 PARTICIPANT = 1
 """Checks are sessions of a study's first participant: random numbers are named the same way."""
 
@@ -36,9 +32,13 @@ class Setting:
         Length of a control step, s.
     seed
         From which every draw comes; 0 or more.
+    lap_s
+        When a lap ends, s; by default the first sharp corner of the default course, and a
+        demonstrator's help, lie in it.
     """
 
     course: Course = field(default_factory=_course)
     instrument: Instrument = field(default_factory=_instrument)
     period: float = 0.1
     seed: int = 0
+    lap_s: float = 20.0
