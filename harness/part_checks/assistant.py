@@ -8,6 +8,7 @@ from harness.part_checks.commands import PREDICTED, assistance
 from harness.part_checks.evidence import Evidence
 from harness.part_checks.fault import described
 from harness.part_checks.lap_part import RESET, Part, check_lap_part, raised_later
+from harness.part_checks.plain import type_name
 from harness.part_checks.play import first_difference, play
 from harness.part_checks.result import CheckResult, PartReport
 from harness.part_checks.role import ASSISTANT
@@ -109,7 +110,7 @@ def _saving_fault(
     """
     data = part.to_bytes()
     if not isinstance(data, bytes):
-        return f"to_bytes returns a {type(data).__name__}", ""
+        return f"to_bytes returns a {type_name(data)}", ""
     if part.to_bytes() != data:
         return "to_bytes returns other bytes when it is called again", ""
     lap = evidence.recorded[1:2]

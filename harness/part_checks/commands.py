@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from harness.part_checks.plain import type_name
 from harness.part_checks.result import CheckResult
 from lad.assistant import Assistance
 from lad.command import Command
@@ -61,9 +62,9 @@ def command_fault(command: Any, most: float = 1.0) -> str | None:
     'v=700, w=0'
     """
     if not isinstance(command, Command):
-        return f"a {type(command).__name__}, {command!r}"[:120]
+        return f"a {type_name(command)}, {command!r}"[:120]
     if not all(isinstance(value, int | float) for value in command):
-        kinds = " and ".join(type(value).__name__ for value in command)
+        kinds = " and ".join(map(type_name, command))
         return f"a Command of {kinds}, {command!r}"[:120]
     v, w = command
     finite = math.isfinite(v) and math.isfinite(w)
@@ -75,9 +76,9 @@ def command_fault(command: Any, most: float = 1.0) -> str | None:
 def assistance_fault(answer: Any, most: float) -> str | None:
     """Return what is wrong with an assistant's answer; None when nothing is."""
     if not isinstance(answer, Assistance):
-        return f"a {type(answer).__name__}, {answer!r}"[:120]
+        return f"a {type_name(answer)}, {answer!r}"[:120]
     if not isinstance(answer.helping, bool):
-        return f"helping is a {type(answer.helping).__name__}, {answer.helping!r}"
+        return f"helping is a {type_name(answer.helping)}, {answer.helping!r}"
     if answer.helping and answer.command is None:
         return "it helps without a command"
     for name in ("command", "mean"):

@@ -65,11 +65,11 @@ class _Observed:
 
     kind: ParticipantKind = "scripted"
 
-    def __init__(self, *, silent: bool, leaves_at: int = STEPS + 1) -> None:
+    def __init__(self, *, silent: bool, leaves_at: int | None = None) -> None:
         self._silent, self._leaves_at = silent, leaves_at
         self.laps: list[tuple[int, str]] = []
         self.seen: list[Sight] = []
-        self.said: list[Command | None] = []
+        self.said: Command | None = None
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:
         self.laps.append((lap, repr(rng.bit_generator.state)))
@@ -79,9 +79,9 @@ class _Observed:
         if len(self.seen) == self._leaves_at:
             raise WithdrewError("that is enough")
         n = len(self.seen)
-        says = None if self._silent and n % 3 == 0 else Command(0.02 * n, 0.4 - 0.02 * n)
-        self.said.append(says)
-        return says
+        swing = (n % STEPS) / STEPS
+        self.said = None if self._silent and n % 3 == 0 else Command(0.6 * swing, 0.4 - 0.6 * swing)
+        return self.said
 
 
 def _own(source: PartSource, setting: Setting, evidence: Evidence) -> Iterator[CheckResult]:
@@ -106,13 +106,13 @@ def _own(source: PartSource, setting: Setting, evidence: Evidence) -> Iterator[C
 
 def _through(
     source: PartSource, setting: Setting, evidence: Evidence, driver: _Observed, severity: float
-) -> tuple[Any, list[Any]]:
-    """Return the impaired driver, and its answers to the first sights that were recorded."""
+) -> tuple[Any, list[tuple[Any, Command | None]]]:
+    """Return the impaired driver, and per step its answer, and what its driver said."""
     setup = impairment_setup(dict(source.options), setting, driver, severity)
     impaired = source.factory(setup)
     impaired.start_lap(0, _lap_numbers(setting))
     sights = [moment.sight for moment in _sights(evidence)]
-    return impaired, [impaired.act(sight) for sight in sights]
+    return impaired, [(impaired.act(sight), driver.said) for sight in sights]
 
 
 def _sights(evidence: Evidence) -> Any:
@@ -153,14 +153,13 @@ def _keeps_from_leaving(source: PartSource, setting: Setting, evidence: Evidence
 
 def _silent(source: PartSource, setting: Setting, evidence: Evidence) -> str | None:
     _, answers = _through(source, setting, evidence, _Observed(silent=True), SEVERITY)
-    faults = (command_fault(answer) for answer in answers if answer is not None)
+    faults = (command_fault(answer) for answer, _ in answers if answer is not None)
     return next((fault for fault in faults if fault is not None), None)
 
 
 def _severity_0(source: PartSource, setting: Setting, evidence: Evidence) -> str | None:
-    driver = _Observed(silent=False)
-    _, answers = _through(source, setting, evidence, driver, 0.0)
-    for step, (given, said) in enumerate(zip(answers, driver.said, strict=False), 1):
+    _, answers = _through(source, setting, evidence, _Observed(silent=False), 0.0)
+    for step, (given, said) in enumerate(answers, 1):
         if given is None or said is None or not np.allclose(given, said, rtol=0, atol=1e-9):
             return f"in step {step}, {said} becomes {given}"
     return None

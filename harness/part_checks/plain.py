@@ -35,6 +35,19 @@ def plain(value: Any) -> Any:
     return repr(value)
 
 
+def type_name(value: Any) -> str:
+    """Return the name of a value's type, with its module unless it is a built-in one.
+
+    Examples
+    --------
+    >>> type_name(True), type_name(np.float32(1))
+    ('bool', 'numpy.float32')
+    """
+    kind = type(value)
+    module = kind.__module__
+    return kind.__qualname__ if module == "builtins" else f"{module}.{kind.__qualname__}"
+
+
 def differing_fields(one: Any, other: Any) -> tuple[str, ...]:
     """Return the fields in which two dataclass instances of one type differ."""
     return tuple(

@@ -8,6 +8,7 @@ from harness.part_checks.common import SAME, same_answers, unchanged
 from harness.part_checks.elsewhere import ALLOWED, There, same_elsewhere
 from harness.part_checks.elsewhere import NAME as ELSEWHERE
 from harness.part_checks.lap_part import Part, made_and_fitting
+from harness.part_checks.plain import type_name
 from harness.part_checks.play import Played, play
 from harness.part_checks.result import CheckResult, PartReport
 from harness.part_checks.role import RESPONDENT, questions_of
@@ -111,12 +112,12 @@ def _listed(answers: Any) -> Any:
 
 def _misfit(given: Any, questions: tuple[Question, ...]) -> str | None:
     if not isinstance(given, tuple | list):
-        return f"a {type(given).__name__}, {given!r}"[:120]
+        return f"a {type_name(given)}, {given!r}"[:120]
     if len(given) != len(questions):
         return f"{len(given)} answers to {len(questions)} questions"
     for question, answer in zip(questions, given, strict=True):
         if answer is not None and not _fits(question, answer):
-            return f"{answer!r} ({type(answer).__name__}) to {question.item}"
+            return f"{answer!r} ({type_name(answer)}) to {question.item}"
     return None
 
 

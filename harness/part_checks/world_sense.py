@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from harness.part_checks.commands import command_fault
+from harness.part_checks.plain import type_name
 from harness.part_checks.result import CheckResult
 from harness.part_checks.setting import Setting
 from harness.part_checks.world_run import AHEAD, LEFT, WorldRun
@@ -74,7 +75,7 @@ def _faults(seen: Observation, t: float, bearings: Any) -> Iterator[str]:
     if not (math.isfinite(seen.clearance_m) and seen.clearance_m >= 0):
         yield f"clearance is {seen.clearance_m!r}"
     if not isinstance(seen.contact, bool):
-        yield f"contact is a {type(seen.contact).__name__}"
+        yield f"contact is a {type_name(seen.contact)}"
 
 
 def stays_observed(run: WorldRun) -> CheckResult:

@@ -34,7 +34,7 @@ WRONG = [
     ("assistant", "DiggingAssistant", "sees no more than it is shown", "in a lap it answers"),
     ("assistant", "Carrying", "reset between laps", "first in step 1 of lap 1"),
     ("assistant", "Commandless", "commands", "it helps without a command"),
-    ("assistant", "NumpyTruth", "commands", "helping is a bool"),
+    ("assistant", "NumpyTruth", "commands", "helping is a numpy.bool"),
     ("assistant", "Overwriting", "leaves what it is given as it is", "x of step 1 of lap 1"),
     ("assistant", "Dated", "saving and loading", "other bytes"),
     ("assistant", "BadlyLoaded", "saving and loading", "loaded by from_bytes"),

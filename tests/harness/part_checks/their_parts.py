@@ -47,24 +47,38 @@ class Ahead:
 
 
 class WithoutAct:
-    def __init__(self, setup): pass
+    """Lacks a method."""
 
-    def start_lap(self, lap, rng): pass
+    def __init__(self, setup):
+        pass
+
+    def start_lap(self, lap, rng):
+        pass
 
 
 class WantsMore(Ahead):
-    def act(self, sight, pose): return STILL
+    """Wants to be told the pose."""
+
+    def act(self, sight, pose):
+        return STILL
 
 
 class Robot(Ahead):
+    """Says that it is what no participant is."""
+
     kind = "robot"
 
 
 class Raising(Ahead):
-    def act(self, sight): return [][self.steps]
+    """Raises at once."""
+
+    def act(self, sight):
+        return [][self.steps]
 
 
 class RaisingLater(Ahead):
+    """Raises in its second lap."""
+
     def act(self, sight):
         if self.lap == 1:
             raise RuntimeError("not again")
@@ -72,15 +86,24 @@ class RaisingLater(Ahead):
 
 
 class Hurried(Ahead):
-    def act(self, sight): return Command(3.0, 0.0)
+    """Drives faster than any stick allows."""
+
+    def act(self, sight):
+        return Command(3.0, 0.0)
 
 
 class Bare(Ahead):
-    def act(self, sight): return tuple(super().act(sight))
+    """Answers a tuple."""
+
+    def act(self, sight):
+        return tuple(super().act(sight))
 
 
 class Lost(Ahead):
-    def act(self, sight): return Command(math.nan, 0.0)
+    """Does not answer a number."""
+
+    def act(self, sight):
+        return Command(math.nan, 0.0)
 
 
 class NotReset(Ahead):
@@ -94,7 +117,10 @@ class NotReset(Ahead):
 
 
 class Unseeded(Ahead):
-    def act(self, sight): return Command(0.3, 0.1 * random.random())
+    """Draws from numbers of its own."""
+
+    def act(self, sight):
+        return Command(0.3, 0.1 * random.random())
 
 
 class Shared(Ahead):
@@ -139,10 +165,15 @@ class Taking(Ahead):
 
 
 class OfItsProcess(Ahead):
-    def act(self, sight): return Command(0.1 + os.getpid() * 1e-8, 0.0)
+    """Drives as its process is numbered."""
+
+    def act(self, sight):
+        return Command(0.1 + os.getpid() * 1e-8, 0.0)
 
 
 class Slow(Ahead):
+    """Thinks for more than half a control period."""
+
     def act(self, sight):
         time.sleep(0.055)
         return super().act(sight)
@@ -174,10 +205,15 @@ class Remembering:
 
 
 class Looking(Remembering):
-    def look(self, sight): self.sight = sight
+    """Would be shown the room."""
+
+    def look(self, sight):
+        self.sight = sight
 
 
 class DiggingAssistant(Remembering):
+    """Asks the world for the time."""
+
     def assist(self, x):
         world = world_of_the_callers()
         answer = super().assist(x)
@@ -195,14 +231,22 @@ class Carrying(Remembering):
 
 
 class Commandless(Remembering):
-    def assist(self, x): return Assistance(helping=True)
+    """Helps without a command."""
+
+    def assist(self, x):
+        return replace(super().assist(x), helping=True, command=None)
 
 
 class NumpyTruth(Remembering):
-    def assist(self, x): return Assistance(helping=np.bool_(False))
+    """Answers with numpy's truth."""
+
+    def assist(self, x):
+        return replace(super().assist(x), helping=np.bool_(False))
 
 
 class Overwriting(Remembering):
+    """Writes into its inputs."""
+
     def assist(self, x):
         answer = super().assist(x)
         x[4:] = 0.0
@@ -210,10 +254,15 @@ class Overwriting(Remembering):
 
 
 class Dated(Remembering):
-    def to_bytes(self): return repr(time.perf_counter_ns()).encode()
+    """Is saved with the time."""
+
+    def to_bytes(self):
+        return repr(time.perf_counter_ns()).encode()
 
 
 class BadlyLoaded(Remembering):
+    """Comes back as another model."""
+
     @classmethod
     def from_bytes(cls, data):
         loaded = cls()
@@ -227,11 +276,14 @@ class Helping:
     def __init__(self, setup):
         self.t = 0.0
 
-    def start_lap(self): self.t = 0.0
+    def start_lap(self):
+        self.t = 0.0
 
-    def look(self, sight): self.t = sight.t
+    def look(self, sight):
+        self.t = sight.t
 
-    def assist(self, x): return HELP if self.t > 1.0 else NO_ASSISTANCE
+    def assist(self, x):
+        return HELP if self.t > 1.0 else NO_ASSISTANCE
 
 
 class Clinging(Helping):
@@ -251,7 +303,8 @@ class Half:
         self.driver, self.severity = setup.driver, setup.severity
         self.kind = kind_of(setup.driver)
 
-    def start_lap(self, lap, rng): self.driver.start_lap(lap, rng)
+    def start_lap(self, lap, rng):
+        self.driver.start_lap(lap, rng)
 
     def act(self, sight):
         meant = self.driver.act(sight)
@@ -263,24 +316,32 @@ class Half:
 
 
 class AsksTwice(Half):
+    """Asks its driver twice."""
+
     def act(self, sight):
         self.driver.act(sight)
         return super().act(sight)
 
 
 class Drawing(Half):
+    """Draws from its driver's numbers."""
+
     def start_lap(self, lap, rng):
         rng.random()
         super().start_lap(lap, rng)
 
 
 class Kindless(Half):
+    """Does not say what its driver is."""
+
     def __init__(self, setup):
         super().__init__(setup)
         del self.kind
 
 
 class NobodyLeaves(Half):
+    """Does not let its driver leave."""
+
     def act(self, sight):
         try:
             return super().act(sight)
@@ -289,36 +350,55 @@ class NobodyLeaves(Half):
 
 
 class NeedsCommands(Half):
-    def act(self, sight): return self.changed(self.driver.act(sight))
+    """Cannot do without a new command."""
+
+    def act(self, sight):
+        return self.changed(self.driver.act(sight))
 
 
 class AlwaysThere(Half):
-    def changed(self, meant): return Command(0.5 * meant.v, 0.5 * meant.w)
+    """Is there at severity 0, too."""
+
+    def changed(self, meant):
+        return Command(0.5 * meant.v, 0.5 * meant.w)
 
 
 class Agreeing:
     """A respondent who agrees, more or less."""
 
-    def __init__(self, setup): pass
+    def __init__(self, setup):
+        pass
 
     def answer(self, questions, lived, rng):
         return tuple(int(rng.integers(3, 6)) for _ in questions)
 
 
 class Brief(Agreeing):
-    def answer(self, questions, lived, rng): return super().answer(questions[1:], lived, rng)
+    """Leaves an answer out without a word."""
+
+    def answer(self, questions, lived, rng):
+        return super().answer(questions[1:], lived, rng)
 
 
 class Between(Agreeing):
-    def answer(self, questions, lived, rng): return tuple(3.5 for _ in questions)
+    """Answers between two points."""
+
+    def answer(self, questions, lived, rng):
+        return tuple(3.5 for _ in questions)
 
 
 class Moody(Agreeing):
-    def answer(self, questions, lived, rng): return tuple(random.randint(1, 5) for _ in questions)
+    """Answers as it likes."""
+
+    def answer(self, questions, lived, rng):
+        return tuple(random.randint(1, 5) for _ in questions)
 
 
 class Confused(Agreeing):
-    def answer(self, questions, lived, rng): return 5 / lived.interventions
+    """Divides by the number of interventions."""
+
+    def answer(self, questions, lived, rng):
+        return 5 / lived.interventions
 
 
 class OpenFloor:
@@ -343,11 +423,14 @@ class OpenFloor:
             self._t * self.period, self._pose, self._velocity, ranges, np.full(15, 3.5), 3.0, False
         )
 
-    def observe(self): return self._seen
+    def observe(self):
+        return self._seen
 
-    def safeguard(self, command): return command
+    def safeguard(self, command):
+        return command
 
-    def turned(self, w): return w * self.period
+    def turned(self, w):
+        return w * self.period
 
     def step(self, command):
         self._controller.approach(command, self.period)
@@ -360,17 +443,24 @@ class OpenFloor:
 
 
 class Mirrored(OpenFloor):
-    def turned(self, w): return -w * self.period
+    """Turns the other way."""
+
+    def turned(self, w):
+        return -w * self.period
 
 
 class Elsewhere(OpenFloor):
+    """Starts somewhere else."""
+
     def reset(self, rng):
         super().reset(rng)
-        self._pose = Pose(0.0, 0.0, 0.0)
+        self._pose = Pose(0.5, 0.0, 0.0)
         self._look()
 
 
 class NoisyLook(OpenFloor):
+    """Measures anew when it is asked."""
+
     def observe(self):
         self._look()
         return self._seen
@@ -388,7 +478,10 @@ class Reused(OpenFloor):
 
 
 class Pushing(OpenFloor):
-    def safeguard(self, command): return Command(2 * command.v, command.w)
+    """Drives faster when guarded."""
+
+    def safeguard(self, command):
+        return Command(2 * command.v, command.w)
 
 
 class Drifting(OpenFloor):
@@ -406,6 +499,8 @@ class Drifting(OpenFloor):
 
 
 class Endless(OpenFloor):
+    """Says that nothing returned in its own way."""
+
     def _look(self):
         super()._look()
         self._seen = replace(self._seen, segments=np.full(15, np.inf))
