@@ -20,9 +20,8 @@ def plain(value: Any) -> Any:
     False
     """
     if isinstance(value, np.ndarray):
-        if value.dtype.hasobject:
-            return (value.shape, plain(value.tolist()))
-        return (str(value.dtype), value.shape, value.tobytes())
+        content = plain(value.tolist()) if value.dtype.hasobject else value.tobytes()
+        return (str(value.dtype), value.shape, content)
     if isinstance(value, np.random.Generator):
         return "random numbers"
     if is_dataclass(value) and not isinstance(value, type):

@@ -2,7 +2,6 @@
 
 import math
 import os
-import random
 import sys
 import time
 from dataclasses import replace
@@ -15,6 +14,8 @@ from lad.assistant import NO_ASSISTANCE, Assistance
 from lad.command import STILL, Command
 from participants.driver import kind_of
 from protocols.pose import Pose
+
+TIMES = []
 
 HELP = Assistance(helping=True, command=Command(0.2, -0.3))
 
@@ -120,17 +121,15 @@ class Unseeded(Ahead):
     """Draws from numbers of its own."""
 
     def act(self, sight):
-        return Command(0.3, 0.1 * random.random())
+        return Command(0.3, 0.1 * np.random.default_rng().random())
 
 
 class Shared(Ahead):
-    """Keeps in its class what belongs to one driver."""
-
-    seen = []
+    """Keeps in its module what belongs to one driver."""
 
     def act(self, sight):
-        self.seen.append(sight.t)
-        return Command(0.2 + 1e-6 * len(self.seen), 0.0)
+        TIMES.append(sight.t)
+        return Command(0.2 + 1e-6 * len(TIMES), 0.0)
 
 
 class Digging(Ahead):
@@ -201,7 +200,7 @@ class Remembering:
         self.done.append(command if helping else None)
 
     def to_bytes(self):
-        return repr([[*x.tolist(), d] for x, d in zip(self.seen, self.done)]).encode()
+        return repr([[*x.tolist(), d] for x, d in zip(self.seen, self.done, strict=True)]).encode()
 
 
 class Looking(Remembering):
@@ -345,7 +344,7 @@ class NobodyLeaves(Half):
     def act(self, sight):
         try:
             return super().act(sight)
-        except Exception:
+        except Exception:  # noqa: BLE001  # that is what is wrong with it
             return STILL
 
 
@@ -391,7 +390,7 @@ class Moody(Agreeing):
     """Answers as it likes."""
 
     def answer(self, questions, lived, rng):
-        return tuple(random.randint(1, 5) for _ in questions)
+        return tuple(int(np.random.default_rng().integers(1, 6)) for _ in questions)
 
 
 class Confused(Agreeing):
