@@ -1,7 +1,7 @@
 """Whether what a part answers is something a lap can go on with."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from harness.part_checks.plain import type_name
@@ -20,26 +20,26 @@ PREDICTED = 10.0
 does not know where the stick ends, and the chair clips the rest. More is another unit."""
 
 
-def driver_commands(answers: Sequence[Sequence[Any]]) -> CheckResult:
+def driver_commands(answers: Mapping[str, Sequence[Any]]) -> CheckResult:
     """Check the answers of a driver: commands within the stick's range, or None."""
-    commands = [answer for lap in answers for answer in lap if isinstance(answer, Command)]
+    commands = [answer for answer in _all(answers) if isinstance(answer, Command)]
     fault = next(_faults(answers, _driver_fault), None)
-    silent = sum(answer is None for lap in answers for answer in lap)
+    silent = sum(answer is None for answer in _all(answers))
     found = f"{_range(commands)}, {silent} steps without a new command"
     return CheckResult.of(NAME, fault, found, f"a Command of {_allowed(1.0)}, or None")
 
 
-def assistance(answers: Sequence[Sequence[Any]], most: float) -> CheckResult:
+def assistance(answers: Mapping[str, Sequence[Any]], most: float) -> CheckResult:
     """Check the answers of a demonstrator or an assistant.
 
     Parameters
     ----------
     answers
-        Per lap.
+        By the lap's name.
     most
         By what factor commands may exceed the chair's top speeds.
     """
-    given = [answer for lap in answers for answer in lap if isinstance(answer, Assistance)]
+    given = [answer for answer in _all(answers) if isinstance(answer, Assistance)]
     commands = [answer.command for answer in given if isinstance(answer.command, Command)]
     fault = next(_faults(answers, lambda answer: assistance_fault(answer, most)), None)
     found = f"{_range(commands)}, helps in {sum(a.helping for a in given)} of {len(given)} steps"
@@ -105,12 +105,16 @@ def _number_fault(name: str, value: Any, most: float) -> str | None:
     return f"{name} is {value!r}"
 
 
-def _faults(answers: Sequence[Sequence[Any]], fault_in: Any) -> Iterator[str]:
-    for lap, given in enumerate(answers, 1):
+def _all(answers: Mapping[str, Sequence[Any]]) -> list[Any]:
+    return [answer for lap in answers.values() for answer in lap]
+
+
+def _faults(answers: Mapping[str, Sequence[Any]], fault_in: Any) -> Iterator[str]:
+    for lap, given in answers.items():
         for step, answer in enumerate(given, 1):
             fault = fault_in(answer)
             if fault is not None:
-                yield f"{fault}, in step {step} of lap {lap}"
+                yield f"{fault}, in step {step} of {lap}"
 
 
 def _range(commands: Sequence[Command]) -> str:

@@ -1,6 +1,6 @@
 """Everything a part of a lap is asked once, and what each check then looks at."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -40,9 +40,11 @@ class Evidence:
     saved: bytes | None
 
     @property
-    def every_answer(self) -> Sequence[Sequence[Any]]:
-        """Per lap, all answers: to what was recorded, then to what was driven."""
-        return [*self.first.answers, *self.driven.answers]
+    def every_answer(self) -> Mapping[str, Sequence[Any]]:
+        """All answers by the lap's name: in driven laps, then to recorded ones."""
+        driven = {f"lap {n}": lap for n, lap in enumerate(self.driven.answers, 1)}
+        recorded = {f"recorded lap {n}": lap for n, lap in enumerate(self.first.answers, 1)}
+        return driven | recorded
 
 
 def gather(role: Role, source: PartSource, setting: Setting) -> Evidence:

@@ -22,7 +22,7 @@ Part = str | Callable[..., Any]
 
 RESET = "reset between laps"
 
-CommandCheck = Callable[[Sequence[Sequence[Any]]], CheckResult]
+CommandCheck = Callable[[Mapping[str, Sequence[Any]]], CheckResult]
 OwnChecks = Callable[[PartSource, Setting, Evidence], Iterator[CheckResult]]
 
 
