@@ -126,7 +126,7 @@ def read(path: str | Path) -> bytes:
 
 
 def write_whole(path: str | Path, data: bytes) -> None:
-    """Write beside the place and rename, so that a reader never meets half a file."""
+    """Write under another name and rename, so that a reader never finds half a file."""
     path = Path(path)
     beside = path.with_name(f".{path.name}.{os.getpid()}")
     try:
