@@ -178,7 +178,7 @@ class _Respondent:
     def answer(
         self,
         questions: Sequence[Question],
-        lived: LapExperience,  # noqa: ARG002  # the seam's
+        experience: LapExperience,  # noqa: ARG002  # the seam's
         rng: np.random.Generator,  # noqa: ARG002  # the seam's
     ) -> tuple[Answer, ...]:
         given = tuple(self._entries.next("answers"))

@@ -13,7 +13,7 @@ def assigned(
     """Return the impairment a person has, if any.
 
     A person has at most one of those a protocol names, each with the probability of its share.
-    One draw from the person's own numbers decides, so nobody's depends on who else takes part.
+    One draw from the person's own numbers decides, so it does not depend on who else takes part.
 
     Parameters
     ----------
