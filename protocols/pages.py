@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from protocols.files.file_model import FileModel
 
 Particular = Literal["age_years", "gender", "handedness"]
-"""What a participant can be asked about themselves."""
+"""What a participant can be asked about their own person."""
 
 
 class Text(FileModel):
@@ -32,6 +32,6 @@ class Text(FileModel):
 
 
 class Consent(Text):
-    """What a participant agrees to, and its version: the record says which one it was."""
+    """What a participant agrees to, and its version, which the record keeps."""
 
     version: Annotated[str, Field(min_length=1, max_length=80)]

@@ -1,4 +1,4 @@
-"""A study as data: what a protocol file may say."""
+"""A study as data: the fields of a protocol file."""
 
 from typing import Annotated, Literal, Self
 
@@ -19,7 +19,7 @@ from protocols.start_noise import StartNoise
 class ModelChoice(FileModel):
     """The assistant that learns; Table I of the paper is the default.
 
-    ``parameters`` are those of the shipped model, ``options`` those of somebody else's.
+    ``parameters`` are those of the shipped model, ``options`` those of your own.
     """
 
     use: shipped_or_factory(*MODELS) = "lad"  # type: ignore[valid-type]
@@ -71,14 +71,14 @@ class StudyProtocol(FileModel):
     laser
         The simulated laser.
     start_noise
-        How exactly the chair is put at the start.
+        How exactly the chair is placed at the start.
     hold_s
         How long a driver's last command stays in force without a new one, in s; then the chair is
-        told to stand.
+        told to stop.
     consent
         Shown, and agreed to, before anything else; null for none.
     demographics
-        What participants are asked about themselves before the first lap.
+        What participants are asked about their own person before the first lap.
     debrief
         Shown after everything else; null for none.
     """
@@ -104,7 +104,9 @@ class StudyProtocol(FileModel):
 
     @model_validator(mode="after")
     def _parts_agree(self) -> Self:
-        taught = self.model.use not in MODELS  # what a model of one's own knows is not ours to say
+        taught = (
+            self.model.use not in MODELS
+        )  # your own model may have been taught before the study
         check_consistency(
             self.conditions, self.laps, self.analyses, cohort=self.cohort, taught=taught
         )

@@ -1,4 +1,4 @@
-"""Refuse a course that nobody could drive, and say why in one line."""
+"""Refuse a course that cannot be driven, and give the reason in one line."""
 
 import itertools
 import math
@@ -32,7 +32,7 @@ def check_drivable(course: Course) -> None:
     Raises
     ------
     InputError
-        With what ``undrivable`` says.
+        With the reason that ``undrivable`` gives.
     """
     fault = undrivable(course)
     if fault is not None:
@@ -40,7 +40,7 @@ def check_drivable(course: Course) -> None:
 
 
 def undrivable(course: Course) -> Fault | None:
-    """Say why a lap cannot be driven, and where in the file; None when it can.
+    """Return why a lap cannot be driven, and where in the file; None when it can.
 
     The start overlaps an obstacle or is far from the centreline, a gate is closed, the centreline
     runs through an obstacle or misses a gate, or no path of the chair's width leads through the

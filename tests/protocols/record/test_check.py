@@ -121,9 +121,9 @@ def test_rows_that_contradict_one_another_are_told(
     session = make_session(1)
     wrong_steps = replace(session.laps[0], row=replace(session.laps[0].row, steps=6))
     cases = {
-        "steps-0.parquet: 5 steps; the lap's row says 6": replace(
+        "steps-0.parquet: 5 steps; the lap's row has 6": replace(
             session, laps=(wrong_steps, session.laps[1])),
-        "lap_rows.parquet: 2 laps; the participant's row says [3]": replace(
+        "lap_rows.parquet: 2 laps; the participant's row has [3]": replace(
             session, participant=replace(session.participant, laps_driven=3)),
         "rows of P0002 in the session of P0001": replace(
             session, participant=replace(session.participant, participant="P0002")),
