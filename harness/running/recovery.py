@@ -1,4 +1,4 @@
-"""Make sessions from their journals: what a living person did is not lost with a process."""
+"""Rebuild sessions from journals: a killed process loses nothing that a person did."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,9 +24,9 @@ class Recovery:
     whole
         Participants whose session was whole already.
     recovered
-        Participants whose session was made from its journal.
+        Participants whose session was rebuilt from its journal.
     faults
-        Why others could not be, a line each.
+        Why others could not be rebuilt, one line each.
     """
 
     whole: tuple[str, ...]
@@ -35,7 +35,7 @@ class Recovery:
 
 
 def recover_sessions(folder: Path) -> Recovery:
-    """Make each session that has a journal, and is missing or damaged, from its journal.
+    """Rebuild each missing or damaged session that has a journal.
 
     A damaged session is moved to ``set-aside``, never deleted; a journal stays where it is. An
     unfinished journal gives the session up to its end, its last lap as interrupted.

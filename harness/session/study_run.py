@@ -16,10 +16,10 @@ class StudyRun:
     study
         Protocol, course and questionnaires.
     seed
-        From which every draw comes; 0 or more.
+        Of every random draw; 0 or more.
     digest
-        By which sessions say what study they belong to; None when they are not kept. It is the
-        study directory's own, which an earlier version may have computed.
+        Sessions name their study by it; None when they are not kept. It is the study directory's
+        own, which an earlier version may have computed.
     """
 
     study: ResolvedStudy

@@ -162,6 +162,6 @@ def test_a_lost_scheduler_ends_a_run_in_one_line(
     ended = run.ended()
     assert ended.code == 1
     said = [line for line in ended.err.splitlines() if not line.startswith("Sessions ")]
-    assert said == ["lad-study: the Dask scheduler was lost; the same command again goes on"]
+    assert said == ["lad-study: the Dask scheduler was lost; the same command resumes the run"]
     assert run_quick(out).code == 0
     assert record(out) == undisturbed
