@@ -31,7 +31,7 @@ def model_section(results: StudyResults) -> Section:
                 "chance). Right: reliability, steps of all laps, unfinished ones too, pooled in "
                 "tenths of p. Predictions were recorded before "
                 "the model learnt from a step: they are out of sample. Laps before the first "
-                "demonstration are left out: there the model knows nothing and says so.",
+                "demonstration are left out: there the model has learnt nothing.",
                 f"Model quality: {said or 'nothing to compare'}.",
                 model_figure(measures, reliability, taught),
             ),

@@ -29,8 +29,8 @@ def generalisation_section(laps: pd.DataFrame, shares: pd.DataFrame, taught_on: 
             Paragraph(
                 "The paper did not test this. Each replicate drives other courses with its own "
                 f"model, which three demonstrations on {taught_on} have taught and which learns "
-                "nothing more. On the mirror image there is no right turn: the limitation "
-                "should hardly matter there, and help should stay away. On "
+                "nothing more. The mirror image has no right turn: the limitation "
+                "should hardly matter there, and the model should not help. On "
                 f"{taught_on} the laps with help are those of the same models."
             ),
             Picture(

@@ -21,7 +21,7 @@ def people_section(evidence: Evidence) -> Section:
             Paragraph(
                 "Synthetic participants. Their population is fitted to the paper's baseline and "
                 "limited laps; the laps with help are predicted. In the fixed order of the laps "
-                "practice and condition cannot be told apart. One study of twelve scatters a "
+                "practice and condition cannot be separated. One study of twelve varies a "
                 "lot, so nothing here has a tolerance."
             ),
             Picture(

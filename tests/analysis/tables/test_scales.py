@@ -14,7 +14,7 @@ def test_reverse_coded_items_are_turned(make_study):
     items = [i for i in instrument.items if i.subscale == "assistance"]
     expected = sum(1 if i.reverse else 5 for i in items) / len(items)
     assert table.loc[("assistance", "model-assisted"), "mean"] == pytest.approx(expected)
-    assert table.loc[("task", "baseline"), "note"] == "everybody scores the same"
+    assert table.loc[("task", "baseline"), "note"] == "all people have the same score"
 
 
 def test_incomplete_sheets_have_no_score(make_study):

@@ -36,7 +36,7 @@ def test_the_default_protocol_is_described_as_it_is_declared(study):
     text = text_of(study)
     for declared in study.protocol.analyses:
         assert f"{declared.name} ({declared.outcome}, {declared.condition} − " in text
-    assert "Nobody was excluded." in text
+    assert "No participant was excluded." in text
     assert "Wilcoxon signed-rank, exact, two-sided" in text
     assert "sources exchanged within participants, exact" in text
     assert "drawn from a model with assumed loadings" in text
@@ -49,7 +49,7 @@ def test_what_a_study_declares_is_in_its_methods_and_nothing_else(make_study, tm
     text = text_of(make_study(path, participants=4))
     assert "alike (lap_time_s, limited − free; confirmatory, family 'primary', equiv" in text
     assert "(TOST), with 90% intervals" in text
-    assert "excludes from every analysis whoever collided more than 40 times" in text
+    assert "from every analysis participants who collided more than 40 times" in text
     assert "Practice laps were not analysed." in text
     assert not re.search(r"map|p\(h|shadow|items|Cronbach|overlap", text)
     assert "bootstrap" not in text  # four people have no bootstrap interval
