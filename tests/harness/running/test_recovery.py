@@ -80,7 +80,7 @@ def test_a_journal_that_cannot_be_used_is_named(live_study, capsys, monkeypatch)
 
 
 def test_a_live_study_is_not_run_as_a_simulated_one(live_study, make_run):
-    """`lad-study run` would delete and make anew what only people can do."""
+    """`lad-study run` would delete and simulate what only people can do."""
     run = make_run(participants=2)
     with pytest.raises(InputError, match="origin live, not simulated"):
         open_folder(live_study, run.study, run.seed)
