@@ -156,7 +156,7 @@ def read(path: Path) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
 
 
 def check(path: Path) -> bool:
-    """Check one file, print its lines, and say whether everything held."""
+    """Check one file, print its lines, and return whether all comparisons hold."""
     tolerance = tolerance_of(path.name)
     header, arrays = read(path)
     runs = [prefix for prefix in prefixes(arrays) if prefix != FOR_COMPARISON_ONLY]

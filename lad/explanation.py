@@ -34,7 +34,7 @@ class Influence:
 
 
 def explain(process: StorkGP, most: int | None = 5) -> list[Influence]:
-    """Say which basis vectors the prediction at the window leans on, the strongest first.
+    """Return the basis vectors that the prediction at the window depends on, the strongest first.
 
     Parameters
     ----------

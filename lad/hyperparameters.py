@@ -42,7 +42,7 @@ Threshold = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False), BeforeValid
 
 
 def _one_line(model: type[BaseModel], error: ValidationError) -> str:
-    """Say in one line what was given and what is allowed."""
+    """Return in one line what was given and what is allowed."""
     parts = []
     for item in error.errors(include_url=False):
         where = ".".join(str(part) for part in item["loc"])

@@ -51,7 +51,7 @@ def pack(kind: str, header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]
     kind
         What the file holds; ``unpack`` asks for it by name.
     header
-        Anything JSON can say.
+        Anything JSON can hold.
     arrays
         Named arrays of numbers.
     """

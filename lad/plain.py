@@ -1,4 +1,4 @@
-"""STORK-GP as the equations say it: dense numpy, a matrix per line, nothing in place.
+"""STORK-GP as the equations define it: dense numpy, a matrix per line, nothing in place.
 
 This is the definition. The class people use, ``lad.stork_gp.StorkGP``, computes the same numbers
 in place and many times faster, and is tested against this one.

@@ -213,7 +213,7 @@ class StorkGP:
         self._look()
 
     def _take_in(self, done: int, novelty: float, slot: int) -> Update:
-        """Keep the window where the step put the new basis vector, and say what happened."""
+        """Keep the window where the step put the new basis vector, and return what happened."""
         state = self.state
         if done == fused.SPARSE:
             return Update(UpdateKind.SPARSE, novelty)

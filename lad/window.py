@@ -127,7 +127,7 @@ def _described(value: object, array: NDArray[Any]) -> str:
 
 
 def _refuse(x: NDArray[np.float64], largest: NDArray[np.float64]) -> NoReturn:
-    """Say which value is not finite, or too large."""
+    """Raise an error that names the value that is not finite, or too large."""
     index = int(np.flatnonzero(~(np.abs(x) <= largest))[0])
     raise InvalidInputError(
         f"input: given {x[index]} at index {index}; allowed are finite numbers up to "

@@ -14,7 +14,7 @@ PARTICIPANT_KINDS: tuple[ParticipantKind, ...] = get_args(ParticipantKind)
 
 
 class WithdrewError(Exception):
-    """The participant ends the session; the message says why, in the participant's terms."""
+    """The participant ends the session; the message is the reason, in the participant's words."""
 
 
 class Driver(Protocol):

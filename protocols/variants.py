@@ -1,4 +1,4 @@
-"""Variants of the model whose results a study of robustness compares with the default's."""
+"""Variants of the model; a study of robustness compares their results with the default's."""
 
 from dataclasses import dataclass
 from typing import Any

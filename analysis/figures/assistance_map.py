@@ -75,8 +75,8 @@ def _density(axes: Axes, values: Numbers, grid: Grid, top: float) -> AxesImage:
 
 
 def _paths(axes: Axes, steps: pd.DataFrame) -> None:
-    everybody = steps["participant"].astype(str).unique()
-    chosen = everybody[:: -(-len(everybody) // MOST_PATHS) or 1]
+    everyone = steps["participant"].astype(str).unique()
+    chosen = everyone[:: -(-len(everyone) // MOST_PATHS) or 1]
     driven = steps[steps["participant"].isin(chosen)]
     # One path per lap: joined, a line from finish to start would link a person's laps.
     laps = driven.groupby(["participant", "lap"], observed=True)

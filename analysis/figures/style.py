@@ -35,7 +35,7 @@ def colours(parts: Sequence[Part]) -> dict[str, str]:
 
 
 def new_figure(height: float, width: float = WIDTH) -> Figure:
-    """Return an empty figure whose parts make room for each other; sizes in inches."""
+    """Return an empty figure with automatic spacing; sizes in inches."""
     return Figure(figsize=(width, height), layout="constrained")
 
 

@@ -139,11 +139,11 @@ def _lap(
     model: LearningAssistant, lap: Demonstration, index: int, *, learning: bool
 ) -> PredictedLap:
     model.start_lap()
-    said = np.full((len(lap.t), 4), np.nan)
+    answers = np.full((len(lap.t), 4), np.nan)
     for step, x in enumerate(lap.x):
         answer = model.assist(x)
         mean = answer.mean or (np.nan, np.nan)
-        said[step] = (_number(answer.p_help), *mean, _number(answer.variance))
+        answers[step] = (_number(answer.p_help), *mean, _number(answer.variance))
         if learning:
             helped = bool(lap.helped[step])
             model.learn(helped, Command(*lap.action[step].tolist()) if helped else None)
@@ -152,9 +152,9 @@ def _lap(
         t=lap.t,
         helped=lap.helped,
         action=lap.action,
-        p_help=said[:, 0],
-        mean=said[:, 1:3],
-        variance=said[:, 3],
+        p_help=answers[:, 0],
+        mean=answers[:, 1:3],
+        variance=answers[:, 3],
     )
 
 

@@ -159,7 +159,7 @@ def _on_worker(task: bytes, number: int) -> tuple[str, Any]:
     Raises
     ------
     UnfitError
-        When the task cannot even be loaded, or says that none can be run here. As an exception,
+        When the task cannot even be loaded, or returns that none can be run here. As an exception,
         because a result would have to be moved to another worker before this one may leave.
     """
     from distributed import get_worker  # noqa: PLC0415  # an extra

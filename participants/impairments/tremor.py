@@ -106,7 +106,7 @@ class Tremor:
         self._begin()
 
     def act(self, sight: Sight) -> Command | None:
-        """Answer with the driver's command, trembling; the driver may have nothing new to say."""
+        """Answer with the driver's command, trembling; the driver may have no new one."""
         meant = self._driver.act(sight)
         self._meant = self._meant if meant is None else meant
         passed = 0.0 if self._t is None else sight.t - self._t

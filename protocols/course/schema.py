@@ -101,7 +101,7 @@ class Course(FileModel):
         yield from _repeated_points(self.centreline, ("centreline",))
 
     def _repeated_names(self) -> Iterator[Fault]:
-        """Find gates or sections that cannot be told apart in the record."""
+        """Find gates or sections with the same name in the record."""
         for field, parts in (("gates", self.gates), ("sections", self.sections)):
             names = [part.name for part in parts]
             for i, name in enumerate(names):

@@ -15,7 +15,7 @@ def model_section(results: StudyResults) -> Section:
     reliability = results.reliability
     reliability = reliability[reliability["condition"].isin(conditions)]
     auc = measures.groupby("condition", sort=False)["when_auc"].agg(["count", "median"])
-    said = "; ".join(
+    aucs = "; ".join(
         f"{condition} median AUC {number(row['median'], 3)} over {int(row['count'])} finished laps"
         for condition, row in auc.iterrows()
         if row["count"]
@@ -32,7 +32,7 @@ def model_section(results: StudyResults) -> Section:
                 "tenths of p. Predictions were recorded before "
                 "the model learnt from a step: they are out of sample. Laps before the first "
                 "demonstration are left out: there the model has learnt nothing.",
-                f"Model quality: {said or 'nothing to compare'}.",
+                f"Model quality: {aucs or 'nothing to compare'}.",
                 model_figure(measures, reliability, taught),
             ),
             table("reliability", "Reliability of p(h = 1 | x), pooled over the steps of all laps.",

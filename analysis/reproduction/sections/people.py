@@ -13,7 +13,7 @@ def people_section(evidence: Evidence) -> Section:
     frames = evidence.people
     paper = {name: PAPER[f"people/{part}/mean"].value for name, part in PARTS.items()}
     means = frames.laps.groupby("condition", sort=False)["lap_time_s"].mean()
-    said = ", ".join(f"{name} {number(float(means[name]))} s" for name in PARTS)
+    listed = ", ".join(f"{name} {number(float(means[name]))} s" for name in PARTS)
     return Section(
         "people",
         "People: lap times (Figure 6)",
@@ -28,7 +28,7 @@ def people_section(evidence: Evidence) -> Section:
                 "people_lap_times",
                 "Lap times by condition, every participant a line "
                 f"(n = {len(frames.participants)}), with mean and sd, and the paper's mean.",
-                f"Mean lap times: {said}.",
+                f"Mean lap times: {listed}.",
                 lap_time_figure(frames.laps, frames.parts, paper),
             ),
         ),
