@@ -1,4 +1,4 @@
-"""What a prediction leans on: the basis vectors behind the mean."""
+"""What a prediction depends on: the basis vectors behind the mean."""
 
 from dataclasses import dataclass
 

@@ -59,10 +59,10 @@ class OrdinalRespondent:
         """Answer the questions about one lap; None where one was left out."""
         felt = impression(experience)
         # The same draws for every item, answered or not: leaving one out changes no other answer.
-        noise, luck = rng.normal(size=len(questions)), rng.random(len(questions))
+        noise, draws = rng.normal(size=len(questions)), rng.random(len(questions))
         return tuple(
             None
-            if luck[i] < self._style.missing_share
+            if draws[i] < self._style.missing_share
             else self._choose(question, felt, float(noise[i]))
             for i, question in enumerate(questions)
         )

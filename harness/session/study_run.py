@@ -9,7 +9,7 @@ from protocols.resolved import ResolvedStudy
 
 @dataclass(frozen=True, slots=True)
 class StudyRun:
-    """Everything a session depends on, besides the participant's number.
+    """Everything that a session depends on, except the participant's number.
 
     Attributes
     ----------

@@ -29,9 +29,9 @@ def assigned(
     >>> ["none" if person is None else person.use for person in people][:4]
     ['none', 'none', 'tremor', 'tremor']
     """
-    luck = rng.random()
+    draw = rng.random()
     for impairment in impairments:
-        if luck < impairment.share:
+        if draw < impairment.share:
             return impairment
-        luck -= impairment.share
+        draw -= impairment.share
     return None

@@ -128,7 +128,7 @@ def read_journal(path: Path) -> RecordedJournal:
 
 
 def refuse_other_journal(journal: RecordedJournal, wanted: JournalHeader) -> None:
-    """Refuse a journal that the session at hand could not replay exactly.
+    """Refuse a journal that this session could not replay exactly.
 
     Raises
     ------
