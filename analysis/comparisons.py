@@ -84,7 +84,7 @@ class PairedComparison:
 
     @property
     def p_declared(self) -> float:
-        """The uncorrected p of the declared test."""
+        """The uncorrected p of the test that the declaration asks for."""
         return self.signed_rank.p if self.equivalence is None else self.equivalence.p
 
 

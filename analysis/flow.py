@@ -15,7 +15,7 @@ class Flow:
     Attributes
     ----------
     planned
-        As in the protocol, or as many as were recorded if that is more.
+        As the protocol says, or as many as were recorded if that is more.
     not_run, failed
         Planned sessions that were not begun, and sessions that broke off with an error.
     recorded

@@ -68,7 +68,7 @@ def study_frames(study: Study) -> StudyFrames:
     parts = condition_roles(study.protocol)
     laps = counted_laps(study, kept["participant"])
     laps = laps[laps["condition"].isin([part.condition for part in parts])]
-    # Any value there is wrong: a lap that was not finished has no lap time.
+    # Whatever stands there: a lap that was not finished has no lap time.
     laps = laps.assign(lap_time_s=laps["lap_time_s"].where(laps["completed"].astype(bool)))
     answers, unread = _answers(study)
     counted = counted_answers(study, answers, kept["participant"])
@@ -127,7 +127,7 @@ def last_answers(answers: pd.DataFrame) -> pd.DataFrame:
 
 
 def practised(laps: pd.DataFrame, protocol: StudyProtocol) -> pd.Series:
-    """Return which laps are practice: as recorded, else as the protocol plans them."""
+    """Return which laps are practice: as they say themselves, else as the protocol plans them."""
     planned = {(i, lap.condition) for i, lap in enumerate(protocol.laps) if lap.practice}
     placed = zip(laps["lap"], laps["condition"], strict=True)
     as_planned = pd.Series([place in planned for place in placed], index=laps.index, dtype=bool)
@@ -143,7 +143,7 @@ def as_frame(table: pa.Table) -> pd.DataFrame:
 
 
 def excluded(participants: pd.DataFrame) -> pd.Series:
-    """Return which participants the protocol's rules exclude."""
+    """Return whom the protocol's rules exclude."""
     return participants["excluded"].fillna(value=False).astype(bool)
 
 

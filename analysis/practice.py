@@ -17,7 +17,7 @@ PLAUSIBLE = (0.0, 2.5, 5.0, 10.0, 15.0, 20.0)
 
 
 def order_confounded(frames: StudyFrames) -> bool:
-    """Return whether the lap's place in the session follows from its condition, or nearly so."""
+    """Tell whether the lap's place in the session follows from its condition, or nearly so."""
     timed = frames.laps.dropna(subset=["lap_time_s"])
     reference = reference_condition(frames.parts)
     if reference is None or timed["condition"].nunique() < 2:

@@ -8,7 +8,7 @@ Layout. ``C`` and ``Q`` are lower triangles whose rows begin at ``starts`` (``la
 ``row_of`` is the one function from elsewhere). ``basis`` is (tau, d, room), so that the kernel's
 inner loop runs over basis vectors; ``alpha`` is (p, room). The rows of ``work`` are the vectors of
 the step in progress: k, then s (at first C k), then e = Q k, then the starred columns of a
-deletion.
+deletion. ``predict`` uses the row of e as scratch, because ``learn`` fills it only later.
 """
 
 from typing import Any
@@ -178,7 +178,6 @@ def predict(
 ) -> float:
     """Fill k and C k, and ``mean`` by equation (8); return equation (9), NaN with a NaN mean."""
     k, Ck = work[K_ROW], work[S_ROW]
-    # E_ROW is free until ``learn`` fills it, so it serves as scratch here.
     kernel_vector(basis, window, n, inverse_scale, prior, k, work[E_ROW])
     symmetric_product(C, starts, k, n, Ck)
     latent = prior + inner(k, Ck, n)

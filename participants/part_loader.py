@@ -1,4 +1,4 @@
-"""Find the factory that a protocol names: a shipped part's, or your own."""
+"""Find the factory that a protocol names: a shipped part's, or somebody's own."""
 
 from collections.abc import Mapping
 from importlib import import_module

@@ -1,4 +1,4 @@
-"""Which laps a participant drives, and in which order; nothing else decides it."""
+"""Which laps a participant drives, in which order: the one place that says so."""
 
 from protocols.laps import PlannedLap
 from protocols.study import StudyProtocol

@@ -32,6 +32,6 @@ class Text(FileModel):
 
 
 class Consent(Text):
-    """What a participant agrees to, and its version, which the record keeps."""
+    """What a participant agrees to, and its version: the record says which one it was."""
 
     version: Annotated[str, Field(min_length=1, max_length=80)]

@@ -23,7 +23,7 @@ class ResolvedStudy:
         The instruments asked after any lap, in the order of their first use.
     folder
         Where relative paths in the components' options start; None for a shipped protocol. Not
-        part of the study's identity.
+        part of what the study is.
     """
 
     protocol: StudyProtocol

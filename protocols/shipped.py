@@ -42,7 +42,7 @@ class Source:
             raise InputError(f"{self.label}: cannot be read: {error.strerror}") from None
 
     def document(self) -> Document:
-        """Return the content as YAML; ``InputError`` when it is not YAML."""
+        """Return the content as YAML; ``InputError`` when it is none."""
         return parse(self.text(), self.label)
 
 
@@ -100,8 +100,8 @@ def locate_text(name: str, folder: Path | None) -> str:
     """
     path = Path(name) if folder is None else folder / name
     try:
-        with path.open("rb") as opened:
-            content = opened.read(MAX_BYTES + 1)
+        with path.open("rb") as stream:
+            content = stream.read(MAX_BYTES + 1)
         text = content.decode("utf-8-sig")
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "it is not UTF-8 text"

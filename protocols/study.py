@@ -19,7 +19,7 @@ from protocols.start_noise import StartNoise
 class ModelChoice(FileModel):
     """The assistant that learns; Table I of the paper is the default.
 
-    ``parameters`` are those of the shipped model, ``options`` those of your own.
+    ``parameters`` are those of the shipped model, ``options`` those of somebody else's.
     """
 
     use: shipped_or_factory(*MODELS) = "lad"  # type: ignore[valid-type]
@@ -78,7 +78,7 @@ class StudyProtocol(FileModel):
     consent
         Shown, and agreed to, before anything else; null for none.
     demographics
-        What participants are asked about their own person before the first lap.
+        What participants are asked about themselves before the first lap.
     debrief
         Shown after everything else; null for none.
     """
@@ -104,9 +104,7 @@ class StudyProtocol(FileModel):
 
     @model_validator(mode="after")
     def _parts_agree(self) -> Self:
-        taught = (
-            self.model.use not in MODELS
-        )  # your own model may have been taught before the study
+        taught = self.model.use not in MODELS  # what a model of one's own knows is not ours to say
         check_consistency(
             self.conditions, self.laps, self.analyses, cohort=self.cohort, taught=taught
         )

@@ -9,21 +9,21 @@ DPI = 150
 
 
 def settle(figure: Figure) -> None:
-    """Fix a figure's layout; drawing it later does not change the layout."""
+    """Lay a figure out for good; drawing it does not move anything afterwards."""
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
 
 
 def svg(figure: Figure) -> bytes:
     """Return a settled figure as SVG, without a date and with reproducible ids."""
-    image = io.BytesIO()
+    stream = io.BytesIO()
     with mpl.rc_context({"svg.hashsalt": "lad-study", "svg.fonttype": "path"}):
-        figure.savefig(image, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
-    return image.getvalue()
+        figure.savefig(stream, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
+    return stream.getvalue()
 
 
 def png(figure: Figure) -> bytes:
     """Return a settled figure as PNG."""
-    image = io.BytesIO()
-    figure.savefig(image, format="png", dpi=DPI, metadata={"Software": None})
-    return image.getvalue()
+    stream = io.BytesIO()
+    figure.savefig(stream, format="png", dpi=DPI, metadata={"Software": None})
+    return stream.getvalue()

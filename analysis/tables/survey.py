@@ -13,7 +13,7 @@ def survey_table(frames: StudyFrames, instrument: Instrument) -> pd.DataFrame:
 
     Columns: item, text, condition, asked, answered, missing, not_reached, median, the count of
     every point of the scale (``n_1`` upwards), and agreement in percent of those who answered.
-    Every analysed participant should be asked: asked = answered + missing (asked, but left out) +
+    Everybody who is analysed was to be asked: asked = answered + missing (asked, but left out) +
     not_reached (no row in the record, because the participant had left or did not drive the lap).
     """
     answers = frames.surveys[frames.surveys["instrument"] == instrument.name]

@@ -67,9 +67,7 @@ _INTERRUPTED = 130
 
 def main() -> None:
     """Run the command line and exit with its code."""
-    sys.path.append(
-        str(Path.cwd())
-    )  # last, so that a folder there cannot hide an installed package
+    sys.path.append(str(Path.cwd()))  # last, so that a folder there cannot hide what is installed
     try:
         code = app(prog_name="lad-study", standalone_mode=False)
     except InputError as fault:

@@ -41,8 +41,8 @@ def run(
 ) -> int:
     """Run a study with synthetic participants, and report it.
 
-    Without arguments: the four-lap study, twelve participants, seed 0. The same command
-    resumes a run that was stopped.
+    Without arguments: the four-lap study, twelve participants, seed 0. A run that was stopped
+    goes on where it was when the same command is given again.
 
     Example: lad-study run four-lap --participants 24 --seed 3 --out studies/pilot
     """

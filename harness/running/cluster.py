@@ -44,7 +44,7 @@ class UnfitError(Exception):
     host, address
         The worker's machine, and Dask's name for the worker.
     reason
-        The end of a sentence.
+        As a sentence's end.
     """
 
     def __init__(self, host: str, address: str, reason: str) -> None:
@@ -159,7 +159,7 @@ def _on_worker(task: bytes, number: int) -> tuple[str, Any]:
     Raises
     ------
     UnfitError
-        When the task cannot even be loaded, or returns that none can be run here. As an exception,
+        When the task cannot even be loaded, or says that none can be run here. As an exception,
         because a result would have to be moved to another worker before this one may leave.
     """
     from distributed import get_worker  # noqa: PLC0415  # an extra

@@ -35,7 +35,7 @@ class Recovery:
 
 
 def recover_sessions(folder: Path) -> Recovery:
-    """Rebuild each missing or damaged session that has a journal.
+    """Make each session that has a journal, and is missing or damaged, from its journal.
 
     A damaged session is moved to ``set-aside``, never deleted; a journal stays where it is. An
     unfinished journal gives the session up to its end, its last lap as interrupted.

@@ -14,7 +14,7 @@ from protocols.study import ModelChoice
 def make_model(choice: ModelChoice, words: Mapping[str, str] | None = None) -> Assistant:
     """Return the assistant that learns in a study.
 
-    Your own is named by a dotted path ``package.module:factory``; the factory takes the
+    Somebody else's is named by a dotted path ``package.module:factory``; the factory takes the
     protocol's options as keyword arguments.
 
     Parameters

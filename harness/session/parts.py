@@ -77,16 +77,16 @@ def make_parts(run: StudyRun, number: int, person: Person | None = None) -> Sess
     InputError
         When a part that the protocol names cannot be made.
     """
-    participant = draw_person(run, number) if person is None else person
+    whose = draw_person(run, number) if person is None else person
     return SessionParts(
-        person=participant,
+        person=whose,
         lap=LapParts(
-            driver=_driver(run, number, participant),
+            driver=_driver(run, number, whose),
             demonstrator=_demonstrator(run, number),
             model=_model(run, number),
         ),
-        respondent=_respondent(run, number, participant),
-        reader=SimulatedReader(participant.particulars()),
+        respondent=_respondent(run, number, whose),
+        reader=SimulatedReader(whose.particulars()),
     )
 
 

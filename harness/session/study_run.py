@@ -18,8 +18,8 @@ class StudyRun:
     seed
         Of every random draw; 0 or more.
     digest
-        Sessions name their study by it; None when they are not kept. It is the study directory's
-        own, which an earlier version may have computed.
+        By which sessions say what study they belong to; None when they are not kept. It is the
+        study directory's own, which an earlier version may have computed.
     """
 
     study: ResolvedStudy

@@ -75,7 +75,7 @@ def parse(content: bytes, source: str) -> Document:
     ------
     InputError
         When the content is not one YAML document of plain values: syntax, encoding, tags,
-        repeated keys, merge keys, anchors that contain themselves or expand without end.
+        repeated keys, merge keys, anchors that contain themselves or unfold without end.
     """
     text = _decode(content, source)
     root = _compose(text, source)
@@ -129,7 +129,7 @@ class _Unfolding:
         self.lines.setdefault(where, node.start_mark.line + 1)
         self.count += 1
         if self.count > MAX_VALUES:
-            raise self.fault(node, where, f"expands to more than {MAX_VALUES} values")
+            raise self.fault(node, where, f"unfolds to more than {MAX_VALUES} values")
         if isinstance(node, ScalarNode):
             return self.scalar(node, where)
         if id(node) in self.open:

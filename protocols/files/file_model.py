@@ -20,7 +20,7 @@ class FileModel(BaseModel):
 
 
 def shipped_or_factory(*shipped: str) -> Any:
-    """Return the type of a field that names a shipped component or your own factory.
+    """Return the type of a field that names a shipped component or somebody else's factory.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def shipped_or_factory(*shipped: str) -> Any:
     -------
     Any
         Text that is one of ``shipped`` or of the form ``package.module:factory``. Whether the
-        factory can be imported is checked where it is called.
+        factory can be imported is found out where it is called.
     """
     allowed = f"{', '.join(shipped)}, or package.module:factory"
 

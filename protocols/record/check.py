@@ -31,7 +31,7 @@ from protocols.record.tables import LAP_COLUMNS, PARTICIPANT_COLUMNS, SURVEY_COL
 from protocols.resolved import ResolvedStudy
 
 Tell = Callable[[str], None]
-"""Called with what is being checked now."""
+"""Called with what is being looked at now."""
 
 
 def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:

@@ -92,13 +92,13 @@ def _append(folder: Path, name: str, row: Sequence[str], header: Sequence[str]) 
     path.parent.mkdir(exist_ok=True)
     text = io.StringIO()
     lines = csv.writer(text, lineterminator="\n")
-    with naming(path), path.open("a+b") as opened:
-        if opened.seek(0, os.SEEK_END) == 0:
+    with naming(path), path.open("a+b") as stream:
+        if stream.seek(0, os.SEEK_END) == 0:
             lines.writerow(header)
-        elif _is_cut_short(opened):
+        elif _is_cut_short(stream):
             text.write("\n")
         lines.writerow(row)
-        opened.write(text.getvalue().encode())
+        stream.write(text.getvalue().encode())
 
 
 def _is_cut_short(opened: BinaryIO) -> bool:

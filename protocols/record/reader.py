@@ -122,7 +122,7 @@ class Study:
         return table if columns is None else table.select(list(columns))
 
     def has_steps(self, participant: str, lap: int) -> bool:
-        """Return whether a lap's steps were recorded: elsewhere, they may not have been."""
+        """Tell whether a lap's steps were recorded: elsewhere, they may not have been."""
         return (self.folder / SESSIONS / participant / steps_file(lap)).is_file()
 
     def model_bytes(self, participant: str) -> bytes | None:

@@ -34,7 +34,7 @@ def commands():
 
 
 def test_the_pages_own_parts_run_as_a_study(workplace, monkeypatch, capsys):
-    """The page's driver and assistant run in a study, and the assistant helps."""
+    """Somebody else's driver and assistant run in our study, and the assistant helps."""
     for arguments in commands():
         monkeypatch.setattr(sys, "argv", ["lad-study", *arguments])
         with pytest.raises(SystemExit) as end:

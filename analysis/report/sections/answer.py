@@ -50,7 +50,7 @@ def _nothing_to_say(results: StudyResults) -> str:
 def _fact(results: StudyResults, c: PairedComparison) -> Fact:
     question = f"{c.condition} against {c.reference}"
     if c.difference is None or not c.difference.computed:
-        return Fact(question, "not known", f"{_why_not(c)}.")
+        return Fact(question, "cannot be said", f"{_why_not(c)}.")
     gain = -c.difference.estimate
     direction = "faster" if gain > 0 else "slower"
     answer = f"{number(abs(gain))} s {direction}" if gain else "no difference"

@@ -63,7 +63,7 @@ def _exclusion(results: StudyResults) -> Iterator[str]:
             f"{' or '.join(said)} (practice apart)."
         )
     reasons = "; ".join(f"{reason}: {n}" for reason, n in excluded.items())
-    yield f"Excluded: {reasons}." if excluded else "No participant was excluded."
+    yield f"Excluded: {reasons}." if excluded else "Nobody was excluded."
 
 
 def _declared(results: StudyResults) -> Iterator[str]:

@@ -36,7 +36,7 @@ def test_the_default_protocol_is_described_as_it_is_declared(study):
     text = text_of(study)
     for declared in study.protocol.analyses:
         assert f"{declared.name} ({declared.outcome}, {declared.condition} − " in text
-    assert "No participant was excluded." in text
+    assert "Nobody was excluded." in text
     assert "Wilcoxon signed-rank, exact, two-sided" in text
     assert "sources exchanged within participants, exact" in text
     assert "drawn from a model with assumed loadings" in text
