@@ -180,7 +180,7 @@ def check(path: Path) -> bool:
             f"  probability {found.probability:.1e}  novelty {found.novelty:.1e}"
             f"  mismatched events {found.events}, deletions {found.deletions},"
             f" sizes {found.sizes}, final basis vectors {found.basis} ({allowed})"
-            f"  {'MISSED: ' + ', '.join(missed) if missed else 'held'}"
+            f"  {'MISSED: ' + ', '.join(missed) if missed else 'met'}"
         )
     return good
 

@@ -328,7 +328,7 @@ def verdict(rows: list[Row]) -> str:
         ("exponent of growth from m = 200 to 800, tau = 4", growth, 2.0),
     ]
     return "\n".join(
-        f"{what}: {value:.2f} (at most {most:g}): {'held' if value <= most else 'MISSED'}"
+        f"{what}: {value:.2f} (at most {most:g}): {'met' if value <= most else 'MISSED'}"
         for what, value, most in lines
     )
 
