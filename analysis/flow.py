@@ -23,7 +23,7 @@ class Flow:
     refused
         Recorded participants without consent.
     excluded
-        Recorded participants with consent whom a rule excludes, by reason.
+        Recorded participants with consent who are excluded by a rule, by reason.
     analysed
         The rest.
     completed
@@ -32,8 +32,8 @@ class Flow:
         One row per condition: laps planned, not driven, unfinished by reason, finished, and how
         many of the finished ones have no lap time.
     withdrawals
-        One row per lap in which somebody left: participant, lap, condition, and why, in the
-        participant's words. Nobody who refused consent is in it.
+        One row per lap in which a participant left: participant, lap, condition, and why, in the
+        participant's words. Participants who refused consent are not in it.
     left_out
         What the tables hold that no analysis can use, in words; empty for our own studies.
     """
@@ -52,7 +52,7 @@ class Flow:
 
 
 def participants_flow(frames: StudyFrames) -> Flow:
-    """Count everybody, at every stage."""
+    """Count the participants at every stage."""
     people = frames.everybody
     no = refused(people)
     out = excluded(people) & ~no

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pyarrow as pa
 
-from analysis.roles import Part, cast
+from analysis.roles import Part, condition_roles
 from protocols.files.errors import InputError
 from protocols.record.reader import Study, off_scale
 from protocols.record.tables import SURVEY_SCHEMA
@@ -24,11 +24,11 @@ class StudyFrames:
     study
         Where they come from.
     parts
-        The analysed conditions and their parts.
+        The analysed conditions and their roles.
     everybody
         One row per participant, whether analysed or not.
     participants
-        One row per participant whom no rule excludes and who did not refuse consent.
+        One row per participant who is not excluded by a rule and did not refuse consent.
     laps
         Their laps in the analysed conditions, practice left out; finished or not. Only a finished
         one has a lap time.
@@ -36,7 +36,7 @@ class StudyFrames:
         Their answers, missing ones as NaN: one of each person to each item in each condition. Where
         a condition was driven more than once, the last answer given counts.
     answers
-        Everybody's answers as they were recorded; those off their scale as NaN.
+        The answers of all participants as they were recorded; those off their scale as NaN.
     unread
         What of the answers could not be read, in words.
     """
@@ -57,7 +57,7 @@ class StudyFrames:
 
     @property
     def synthetic(self) -> bool:
-        """Whether anybody who is analysed is a synthetic participant."""
+        """Whether any analysed participant is synthetic."""
         return bool((self.participants["kind"] == "synthetic").any())
 
 
@@ -65,7 +65,7 @@ def study_frames(study: Study) -> StudyFrames:
     """Return the tables of a study, and those who are analysed."""
     everybody = as_frame(study.participants)
     kept = everybody[~excluded(everybody) & ~refused(everybody)]
-    parts = cast(study.protocol)
+    parts = condition_roles(study.protocol)
     laps = counted_laps(study, kept["participant"])
     laps = laps[laps["condition"].isin([part.condition for part in parts])]
     # Whatever stands there: a lap that was not finished has no lap time.
@@ -148,7 +148,7 @@ def excluded(participants: pd.DataFrame) -> pd.Series:
 
 
 def refused(participants: pd.DataFrame) -> pd.Series:
-    """Return who refused consent; a consent nobody recorded is not a refusal."""
+    """Return who refused consent; a consent that was not recorded is not a refusal."""
     consented: pd.Series = participants["consented"].fillna(value=True).astype(bool)
     return ~consented
 

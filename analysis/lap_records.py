@@ -20,7 +20,7 @@ POOLED = ("x_m", "y_m", "h_would", "p_help")
 
 @dataclass(frozen=True, slots=True)
 class LapRecords:
-    """What the steps of the analysed laps say.
+    """What follows from the steps of the analysed laps.
 
     Attributes
     ----------
@@ -51,7 +51,7 @@ def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None
     """Read the steps of every analysed lap once.
 
     A step table that cannot be read is named, and its lap kept as one without steps: the other
-    laps are not worth less for it.
+    laps can still be analysed.
     """
     rows, pooled = [], []
     unrecorded = [column.name for column in STEP_COLUMNS]

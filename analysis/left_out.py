@@ -1,4 +1,4 @@
-"""What a study's tables hold that no analysis can use: tables made elsewhere may."""
+"""Values in a study's tables that no analysis can use; tables of other programs may have some."""
 
 from collections.abc import Iterator
 

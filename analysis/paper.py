@@ -15,22 +15,22 @@ class PaperFigure:
     value, unit
         As printed.
     section
-        Where it stands.
-    says
+        The section of the paper.
+    meaning
         What it is.
-    doubt
+    remark
         What does not add up about it; "" when nothing is wrong.
     """
 
     value: float
     unit: str
     section: str
-    says: str
-    doubt: str = ""
+    meaning: str
+    remark: str = ""
 
 
-def _lap(value: float, section: str, says: str, doubt: str = "") -> PaperFigure:
-    return PaperFigure(value, "s", section, says, doubt)
+def _lap(value: float, section: str, meaning: str, remark: str = "") -> PaperFigure:
+    return PaperFigure(value, "s", section, meaning, remark)
 
 
 PAPER: dict[str, PaperFigure] = {
@@ -84,7 +84,7 @@ PAPER: dict[str, PaperFigure] = {
         63, "%", "V.C", "liked having the assistance",
         "63% of 11 only by truncation: 7 of 11 is 63.6%"),
 }  # fmt: skip
-"""By key: whose laps / the condition's part (a model with its demonstrations) / the quantity."""
+"""By key: driver / role of the condition (a model with its demonstrations) / quantity."""
 
 
 def paper_figure(protocol: StudyProtocol, part: Part, quantity: str) -> PaperFigure | None:
@@ -103,10 +103,10 @@ def paper_figure(protocol: StudyProtocol, part: Part, quantity: str) -> PaperFig
 
     Examples
     --------
-    >>> from analysis.roles import cast
+    >>> from analysis.roles import condition_roles
     >>> from protocols.load import load_protocol
     >>> study = load_protocol("four-lap")
-    >>> paper_figure(study, cast(study)[3], "mean").value
+    >>> paper_figure(study, condition_roles(study)[3], "mean").value
     56.1
     """
     whose = "robot" if protocol.cohort.driver.use == "autonomous" else "people"

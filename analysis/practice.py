@@ -26,9 +26,9 @@ def order_confounded(frames: StudyFrames) -> bool:
 
 
 def other_orders(frames: StudyFrames) -> tuple[int, int]:
-    """Return how many participants drove the conditions in another order than most, and of whom.
+    """Return how many participants drove the conditions in another order than most, and of all.
 
-    Who left out laps of the common order has not driven another one.
+    A participant who left out laps of the common order has not driven another order.
     """
     laps = frames.laps.sort_values("lap")
     orders = [tuple(own["condition"]) for _, own in laps.groupby("participant", sort=True)]
@@ -53,8 +53,8 @@ def practice_table(frames: StudyFrames, model: Sequence[TestResult]) -> pd.DataF
     frames
         The study.
     model
-        The contrasts, against the yardstick, as ``lap_time_model`` or ``own_contrasts`` return
-        them; those without an interval are left out.
+        The contrasts, against the reference condition, as ``lap_time_model`` or ``own_contrasts``
+        return them; those without an interval are left out.
 
     Returns
     -------
@@ -72,7 +72,7 @@ def practice_table(frames: StudyFrames, model: Sequence[TestResult]) -> pd.DataF
         places = frames.laps.groupby("condition")["lap"].mean()
         for contrast in model:
             condition, _, reference = contrast.name.partition(" against ")
-            if math.isfinite(contrast.low):  # without an interval there is none to shift
+            if math.isfinite(contrast.low):  # a contrast without an interval cannot be shifted
                 apart = float(places[condition] - places[reference])
                 rows += _rows(contrast, condition, reference, apart)
     return pd.DataFrame(rows, columns=columns)

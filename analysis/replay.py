@@ -1,4 +1,4 @@
-"""A recorded lap as a moving picture: nothing is simulated again."""
+"""A recorded lap as an animated picture, without another simulation."""
 
 import io
 from collections.abc import Callable
@@ -32,7 +32,7 @@ EVERY = 2
 """Steps per frame."""
 
 SPEED = 2.0
-"""How much faster than life the picture moves."""
+"""How many times faster than real time the picture moves."""
 
 DPI = 80
 CONTROL = {"driver": GREY, "demonstrator": BLUE, "model": GREEN}
@@ -54,11 +54,11 @@ def write_replay(
     study_dir
         The study directory.
     participant, lap
-        Whose lap, and which, counted from 0.
+        The participant's id, and the lap, counted from 0.
     out
         The file to write; replaced when it exists, never left half-written.
     progress
-        Told in a few words what is being done.
+        Called with a few words about what is being done.
 
     Raises
     ------
@@ -92,11 +92,11 @@ class _Moving:
     chair: Polygon
     laser: LineCollection
     clock: Line2D
-    said: mpl.text.Text
+    label: mpl.text.Text
 
 
 class _Stage:
-    """The figure of one lap, drawn once; only what moves is drawn again."""
+    """The figure of one lap, drawn once; only the moving artists are drawn again."""
 
     def __init__(self, course: Course, steps: Steps, title: str) -> None:
         self.steps = steps
@@ -124,9 +124,9 @@ class _Stage:
 
     @property
     def artists(self) -> tuple[mpl.artist.Artist, ...]:
-        """What moves, from the bottom up."""
+        """The moving artists, from the bottom up."""
         m = self.moving
-        return m.laser, m.trail, m.chair, m.clock, m.said
+        return m.laser, m.trail, m.chair, m.clock, m.label
 
     def frame(self, i: int) -> Image.Image:
         """Return the picture at step i."""
@@ -136,7 +136,7 @@ class _Stage:
         m.chair.set_xy(_footprint(self._xy[i], self._heading[i]))
         m.laser.set_segments(_rays(self._xy[i], self._heading[i], self._beams[i]))
         m.clock.set_xdata([t, t])
-        m.said.set_text(f"{t:5.1f} s")
+        m.label.set_text(f"{t:5.1f} s")
         self.canvas.restore_region(self._background)
         for artist in self.artists:
             artist.axes.draw_artist(artist)  # type: ignore[union-attr]  # all of them have axes
@@ -150,9 +150,9 @@ def _movers(plan: Axes, chart: Axes) -> _Moving:
     plan.add_collection(laser, autolim=False)
     plan.add_collection(trail, autolim=False)
     plan.add_patch(chair)
-    said = plan.text(0.01, 0.01, "", transform=plan.transAxes, fontsize=10, family="monospace")
+    label = plan.text(0.01, 0.01, "", transform=plan.transAxes, fontsize=10, family="monospace")
     clock = chart.axvline(0, color=VERMILLION, linewidth=1.2)
-    return _Moving(trail, chair, laser, clock, said)
+    return _Moving(trail, chair, laser, clock, label)
 
 
 def _legend(axes: Axes, steps: pd.DataFrame) -> None:

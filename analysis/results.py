@@ -61,13 +61,13 @@ class StudyResults:
     lap_times
         Lap times of every two conditions, declared or not.
     model
-        Mixed model of log lap times: every condition against the yardstick.
+        Mixed model of log lap times: every condition against the reference condition.
     contrasts
         The same contrasts from each participant's own laps, each with its own spread.
     practice
-        What is left of the model's contrasts under plausible practice; see ``analysis.practice``.
+        What remains of the model's contrasts under plausible practice; see ``analysis.practice``.
     overlap
-        Demonstrator's and model's assistance maps compared; None where there are not both.
+        Demonstrator's and model's assistance maps compared; None unless there are both.
     surveys
         One per instrument.
     measures, sections, reliability, paper
@@ -155,7 +155,7 @@ def _overlap(frames: StudyFrames, records: LapRecords) -> TestResult | None:
 def _seen(
     steps: pd.DataFrame, people: Sequence[str], conditions: Iterable[str | None]
 ) -> list[str]:
-    """Return of whom it is known, in every condition, where they were and whether helped."""
+    """Return the participants with known position and assistance in every condition."""
     known = steps[steps[["helped", "x_m", "y_m"]].notna().all(axis=1)]
     there = [set(known.loc[known["condition"] == c, "participant"].unique()) for c in conditions]
     return [who for who in people if all(who in place for place in there)]

@@ -1,4 +1,4 @@
-"""The statistics as JSON: for a reader who wants to compute on."""
+"""The statistics as JSON, for further computation."""
 
 import json
 import math

@@ -15,7 +15,7 @@ LARGEST_INPUT = 1e150
 
 @dataclass
 class Window:
-    """The last tau inputs in units of their lengthscales; zeros stand for missing ones.
+    """The last tau inputs in units of their lengthscales; zeros replace missing ones.
 
     Classifier and regressor may share one window: it holds nothing either of them has learnt.
 
@@ -108,7 +108,7 @@ def as_vector(value: object, size: int, name: str, error: type[ValueError]) -> N
     name
         What to call it in the message.
     error
-        The error to raise, one line that says what was given and what is allowed.
+        The error to raise, with one line: what was given and what is allowed.
     """
     try:
         array = np.asarray(value)
@@ -127,7 +127,7 @@ def _described(value: object, array: NDArray[Any]) -> str:
 
 
 def _refuse(x: NDArray[np.float64], largest: NDArray[np.float64]) -> NoReturn:
-    """Say which value is not finite, or too large."""
+    """Raise an error that names the value that is not finite, or too large."""
     index = int(np.flatnonzero(~(np.abs(x) <= largest))[0])
     raise InvalidInputError(
         f"input: given {x[index]} at index {index}; allowed are finite numbers up to "

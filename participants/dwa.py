@@ -1,4 +1,4 @@
-"""The Dynamic Window Approach: velocities the chair can reach, may drive, and likes best.
+"""The Dynamic Window Approach: the best of the velocities the chair can reach and may drive.
 
 Fox, Burgard & Thrun (1997), The dynamic window approach to collision avoidance, IEEE Robotics &
 Automation Magazine 4(1), 23-33.
@@ -25,11 +25,11 @@ class DynamicWindow:
     heading, clearance, velocity
         Weights of the objective's three parts, each between 0 and 1.
     interval
-        How long the chair accelerates before velocities count as reached, s.
+        How long the chair accelerates before it is assumed to have reached a velocity, s.
     horizon
-        How far ahead an arc is looked at, s.
+        How far ahead an arc is checked, s.
     prediction
-        When the direction to the target is judged, s ahead.
+        How far ahead the direction to the target is judged, s.
     speeds, turns
         How many translational and rotational velocities are tried.
     """
@@ -101,8 +101,8 @@ def _reach(now: float, change: float, lowest: float, highest: float) -> tuple[fl
 def _best(field: Any, vs: Any, ws: Any, target: Any, weights: Any) -> Any:
     """Return (v, w, score) of the best admissible pair; score -inf when there is none.
 
-    No arc can score more than with all clearance there is, so pairs are looked at from the most
-    promising on, until none of the rest can be better: the answer is that of looking at all.
+    No arc scores more than it would with full clearance. So pairs are checked in the order of that
+    bound, until no other pair can be better: the answer is the same as after checking all.
     """
     clearance_weight, horizon = weights[1], weights[3]
     promise = np.empty(len(vs) * len(ws))

@@ -9,13 +9,13 @@ from protocols.files.errors import InputError
 
 
 class Options(BaseModel):
-    """What a component may be told; a subclass names each option, its type and its range."""
+    """Options of a component; a subclass names each option, its type and its range."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
 
 class NoOptions(Options):
-    """A component that cannot be told anything."""
+    """Options of a component that has none."""
 
 
 Given = TypeVar("Given", bound=Options)
@@ -27,11 +27,11 @@ def read_options(who: str, kind: type[Given], given: Mapping[str, Any]) -> Given
     Parameters
     ----------
     who
-        Whose options they are, for the message, e.g. ``"driver 'human'"``.
+        The component whose options they are, for the message, e.g. ``"driver 'human'"``.
     kind
         What is allowed.
     given
-        What the protocol says.
+        What the protocol gives.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What somebody in the room perceives in one step."""
+"""What a driver or demonstrator in the room perceives in one step."""
 
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
@@ -19,7 +19,7 @@ class Sight:
     t
         Seconds since the lap started.
     pose
-        Where one sees oneself (a person), or localises oneself (a navigation stack).
+        The chair's pose as a person sees it, or as a navigation stack estimates it.
     velocity
         The chair's velocities as felt, or from odometry.
     ranges
@@ -29,9 +29,9 @@ class Sight:
     laser
         The sensor's mounting point ahead of the driven axle, in metres.
     gates_passed
-        How many gates lie behind.
+        How many gates the chair has passed.
     helped
-        Whether somebody else's command moved the chair in the step before: one notices.
+        Whether the assistant's command moved the chair in the step before; people notice it.
     """
 
     t: float
@@ -46,7 +46,7 @@ class Sight:
 
 @runtime_checkable
 class Onlooker(Protocol):
-    """An assistant who sees the room. The learned model is none: it gets its 19 inputs only."""
+    """An assistant that sees the room. The learned model does not: it gets only its 19 inputs."""
 
     def look(self, sight: Sight) -> None:
         """See the room as it is now; called before ``assist`` in every step."""

@@ -9,7 +9,7 @@ from protocols.files.file_model import FileModel, Name, shipped_or_factory
 from protocols.shipped_parts import DEMONSTRATORS, DRIVERS, IMPAIRMENTS, RESPONDENTS
 
 Options = dict[str, Any]
-"""Settings handed to the component as keyword arguments; the component checks them."""
+"""Settings for the component, as keyword arguments; the component checks them."""
 
 Share = Annotated[float, Field(ge=0, le=1)]
 
@@ -48,14 +48,14 @@ class Demographics(FileModel):
 
 
 class DriverChoice(FileModel):
-    """Who sits in the wheelchair."""
+    """Who drives the wheelchair."""
 
     use: shipped_or_factory(*DRIVERS) = "human"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
 
 
 class DemonstratorChoice(FileModel):
-    """Who watches and takes over, or as a shadow says what they would do."""
+    """Who watches and takes over, or as a shadow gives the command that does not count."""
 
     use: shipped_or_factory(*DEMONSTRATORS) = "attentive"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
@@ -69,14 +69,14 @@ class RespondentChoice(FileModel):
 
 
 class ImpairmentChoice(FileModel):
-    """What the bodies of some participants do to their own intentions.
+    """An impairment that changes the commands of some participants.
 
     Attributes
     ----------
     share
-        Probability that a participant has it; nobody has more than one.
+        Probability that a participant has it; a participant has at most one.
     severity
-        From none to severe; what that means is the impairment's.
+        From none to severe; the impairment defines its meaning.
     """
 
     use: shipped_or_factory(*IMPAIRMENTS)  # type: ignore[valid-type]
@@ -86,7 +86,7 @@ class ImpairmentChoice(FileModel):
 
 
 class TraitDistribution(FileModel):
-    """How one trait is distributed over synthetic people, instead of as calibrated.
+    """How one trait is distributed over synthetic people, in place of the calibrated distribution.
 
     Attributes
     ----------
@@ -127,6 +127,6 @@ class Cohort(FileModel):
         if total > 1.0 + 1e-9:
             raise ValueError(
                 f"the shares of the impairments add up to {total:g}; allowed: 1 at most, "
-                "nobody has more than one"
+                "a participant has at most one"
             )
         return self

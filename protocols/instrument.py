@@ -107,5 +107,5 @@ class Instrument(FileModel):
         raise KeyError(item_id)
 
     def ids(self, *, assisted: bool) -> tuple[str, ...]:
-        """Return the ids of the items that apply to a lap in which somebody could help or not."""
+        """Return the ids of the items that apply to a lap with or without an assistant."""
         return tuple(i.id for i in self.items if assisted or i.asked == "every lap")

@@ -31,7 +31,7 @@ def shipped_instruments() -> tuple[str, ...]:
 
 
 def load_protocol(name_or_path: str) -> StudyProtocol:
-    """Return a protocol as its file says it, without looking up what it refers to.
+    """Return a protocol as it is in its file, without looking up what it refers to.
 
     Raises
     ------
@@ -47,7 +47,7 @@ def load_course(name_or_path: str) -> Course:
     Raises
     ------
     InputError
-        When there is no such file, its content is not a course, or nobody could drive it.
+        When there is no such file, its content is not a course, or it cannot be driven.
     """
     return _course(locate("courses", name_or_path))
 

@@ -31,7 +31,7 @@ def laps_with_items(protocol: StudyProtocol, instruments: Instruments) -> tuple[
 
 
 def question_faults(protocol: StudyProtocol, instruments: Instruments) -> Iterator[Fault]:
-    """Find questions that do not exist, and comparisons of answers that nobody is asked for."""
+    """Find questions that do not exist, and comparisons of answers that no lap asks for."""
     yield from _survey_faults(protocol, instruments)
     yield from _outcome_faults(protocol, instruments)
 

@@ -1,4 +1,4 @@
-"""A study with everything it refers to: nothing left to look up."""
+"""A study with everything it refers to."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -32,7 +32,7 @@ class ResolvedStudy:
     folder: Path | None = field(default=None, compare=False)
 
     def instrument(self, name: str) -> Instrument:
-        """Return the instrument of this name; ``KeyError`` when the study asks no such one."""
+        """Return the instrument of this name; ``KeyError`` when the study has none."""
         for instrument in self.instruments:
             if instrument.name == name:
                 return instrument

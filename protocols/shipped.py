@@ -36,8 +36,8 @@ class Source:
     def text(self) -> bytes:
         """Return the content; ``InputError`` when it cannot be read."""
         try:
-            with self.file.open("rb") as stream:
-                return stream.read(MAX_BYTES + 1)
+            with self.file.open("rb") as opened:
+                return opened.read(MAX_BYTES + 1)
         except OSError as error:
             raise InputError(f"{self.label}: cannot be read: {error.strerror}") from None
 
@@ -58,7 +58,7 @@ def locate(kind: Kind, name_or_path: str, folder: Path | None = None) -> Source:
     Parameters
     ----------
     kind
-        What is looked for.
+        What to find.
     name_or_path
         As a person gave it.
     folder
@@ -113,16 +113,18 @@ def locate_text(name: str, folder: Path | None) -> str:
 
 
 def shipped_text(name: str) -> str:
-    """Return a shipped file of any kind as it stands, comments included.
+    """Return a shipped file of any kind unchanged, comments included.
 
     Raises
     ------
     InputError
-        When nothing of this name ships; lists what does.
+        When no shipped file has this name; lists the names there are.
     """
     kinds: tuple[Kind, ...] = ("studies", "courses", "instruments")
     for kind in kinds:
         if name in shipped_names(kind):
             return locate(kind, name).text().decode()
     every = [shipped for kind in kinds for shipped in shipped_names(kind)]
-    raise InputError(f"nothing that ships is named {name!r}; {allowed(name, every)}")
+    raise InputError(
+        f"no shipped protocol, course or instrument is named {name!r}; {allowed(name, every)}"
+    )

@@ -1,4 +1,4 @@
-"""A study as data: what a protocol file may say."""
+"""A study as data: the fields of a protocol file."""
 
 from typing import Annotated, Literal, Self
 
@@ -71,10 +71,10 @@ class StudyProtocol(FileModel):
     laser
         The simulated laser.
     start_noise
-        How exactly the chair is put at the start.
+        How exactly the chair is placed at the start.
     hold_s
         How long a driver's last command stays in force without a new one, in s; then the chair is
-        told to stand.
+        told to stop.
     consent
         Shown, and agreed to, before anything else; null for none.
     demographics

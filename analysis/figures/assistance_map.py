@@ -75,10 +75,10 @@ def _density(axes: Axes, values: Numbers, grid: Grid, top: float) -> AxesImage:
 
 
 def _paths(axes: Axes, steps: pd.DataFrame) -> None:
-    everybody = steps["participant"].astype(str).unique()
-    chosen = everybody[:: -(-len(everybody) // MOST_PATHS) or 1]
+    everyone = steps["participant"].astype(str).unique()
+    chosen = everyone[:: -(-len(everyone) // MOST_PATHS) or 1]
     driven = steps[steps["participant"].isin(chosen)]
-    # A lap each: joined, a person's laps would be linked by a line from finish to start.
+    # One path per lap: joined, a line from finish to start would link a person's laps.
     laps = driven.groupby(["participant", "lap"], observed=True)
     lines = [lap[["x_m", "y_m"]].to_numpy()[::3] for _, lap in laps]
     alpha = max(0.12, min(0.6, 8 / max(len(lines), 1)))

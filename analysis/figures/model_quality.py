@@ -1,4 +1,4 @@
-"""Whether the model knew when to help: AUC per lap, and whether p(h) means what it says."""
+"""Whether the model knew when to help: AUC per lap, and the calibration of p(h)."""
 
 from collections.abc import Sequence
 

@@ -14,7 +14,7 @@ KINDS = {"sharp_right": "sharp right", "soft_right": "soft right", "left": "left
 
 
 def section_figure(table: pd.DataFrame, parts: Sequence[Part]) -> Figure:
-    """Draw bars of the assisted share per section, the shadow demonstrator's wish as a line.
+    """Draw bars of the assisted share per section, the shadow demonstrator's share as a line.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ def write_report(study_dir: Path, progress: Callable[[str], None] | None = None)
     """Analyse a study directory and write its report.
 
     ``report/`` gets ``index.html`` (one self-contained page), ``figures/`` (SVG and PNG),
-    ``tables/`` (CSV) and ``statistics.json``. It is built beside its place and renamed; an older
+    ``tables/`` (CSV) and ``statistics.json``. It is built under another name and renamed; an older
     report is replaced as a whole.
 
     Parameters
@@ -28,7 +28,7 @@ def write_report(study_dir: Path, progress: Callable[[str], None] | None = None)
     study_dir
         The study directory.
     progress
-        Told in a few words what is being done.
+        Called with a few words about what is being done.
 
     Returns
     -------
@@ -38,7 +38,7 @@ def write_report(study_dir: Path, progress: Callable[[str], None] | None = None)
     Raises
     ------
     InputError
-        When the directory is no study, holds no session, cannot be used or cannot be written.
+        When the directory is not a study, holds no session, cannot be used or cannot be written.
     """
     tell = progress or (lambda _: None)
     study_dir = Path(study_dir)

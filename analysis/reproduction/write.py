@@ -43,9 +43,9 @@ def write_reproduction(
     jobs
         Processes that teach models, 1 or more.
     tell
-        Told in a few words what is being done.
+        Called with a few words about what is being done.
     further
-        Gives the sections and rows that follow the paper's own experiments.
+        Returns the sections and rows that follow the paper's own experiments.
 
     Returns
     -------
@@ -106,7 +106,7 @@ def contents_of(page: Page, rows: Sequence[Row]) -> dict[str, bytes]:
 def replace_all(folder: Path, contents: dict[str, bytes]) -> None:
     """Put files, and the folders they are in, in the place of those with their names.
 
-    Everything is written beside its place first: when that fails, nothing has changed.
+    Everything is written under another name first: when that fails, nothing has changed.
 
     Raises
     ------
@@ -129,7 +129,7 @@ def replace_all(folder: Path, contents: dict[str, bytes]) -> None:
 
 
 def _swap(new: Path, place: Path, aside: Path) -> None:
-    """Move a file or folder to its place; a folder that is there goes aside first."""
+    """Move a file or folder to its place; an older folder there is moved away first."""
     if place.is_dir():
         place.rename(aside)
     try:

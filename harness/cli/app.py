@@ -1,4 +1,4 @@
-"""Puts the commands together, and turns a person's mistake into one line and exit code 2."""
+"""Joins the commands, and turns faulty input into one line and exit code 2."""
 
 import sys
 from importlib.metadata import version
@@ -32,7 +32,7 @@ app = typer.Typer(
         "Run, simulate and analyse assistance studies on a simulated smart wheelchair.\n\n"
         "Start with `lad-study run`: the four-lap study with twelve synthetic participants, "
         "from the first lap to a report that opens in a browser.\n\n"
-        "Exit codes: 0 done; 1 something failed; 2 your input, with one line that says where, "
+        "Exit codes: 0 done; 1 something failed; 2 faulty input, with one line: where, "
         "what, and what is allowed."
     ),
 )
@@ -48,10 +48,13 @@ def _print_version(asked: bool) -> None:
 def _options(
     context: typer.Context,
     _version: Annotated[
-        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Say which.")
+        bool,
+        typer.Option(
+            "--version", callback=_print_version, is_eager=True, help="Print the version."
+        ),
     ] = False,
 ) -> None:
-    """Hold the options that come before a command; without one, say what commands there are."""
+    """Take the options that come before a command; without a command, list the commands."""
     if context.invoked_subcommand is None:
         typer.echo(context.get_help())
 
@@ -70,7 +73,7 @@ app.command("show")(listing.show)
 
 
 _INTERRUPTED = 130
-"""What typer returns for a command that Ctrl-C has ended; no command of ours returns it."""
+"""What typer returns for a command that Ctrl-C has ended; no command here returns it."""
 
 
 def main() -> None:

@@ -13,7 +13,7 @@ def check(
 ) -> int:
     """Verify a study: sessions, checksums, schema, codebook, row counts.
 
-    Says in a line each what is wrong and what to run; exit code 1 when anything is.
+    Prints one line for each fault, with what to run; exit code 1 when there is a fault.
 
     Example: lad-study check studies/four-lap-seed0
     """

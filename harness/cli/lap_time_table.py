@@ -1,4 +1,4 @@
-"""The table a person wants to see when a study has been run."""
+"""The table of lap times that is printed after a study has run."""
 
 import math
 from pathlib import Path

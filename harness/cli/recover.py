@@ -11,9 +11,9 @@ from harness.cli.console import complain, progress_line, say
 def recover(
     study: Annotated[Path, typer.Argument(metavar="DIR", help="A study directory.")],
 ) -> int:
-    """Make missing and damaged sessions from their journals; nothing is deleted.
+    """Rebuild missing and damaged sessions from their journals; nothing is deleted.
 
-    A session that broke off is made up to where its journal ends. A damaged one is moved to
+    A session that broke off is rebuilt up to the end of its journal. A damaged one is moved to
     DIR/set-aside first. Exit code 1 when a journal cannot be used.
 
     Example: lad-study recover studies/ward-pilot
@@ -23,7 +23,7 @@ def recover(
     with progress_line():
         outcome = recover_sessions(study)
     for name in outcome.recovered:
-        say(f"{name}: made from its journal")
+        say(f"{name}: rebuilt from its journal")
     for fault in outcome.faults:
         complain(fault)
     if not outcome.recovered and not outcome.faults:

@@ -25,15 +25,15 @@ PATIENCE_S = 15
 """How long a scheduler may take to answer, and its first worker to be there, s."""
 
 LOOK_S = 5
-"""How often it is looked whether there still is a worker while none answers, s."""
+"""How often to check that there is still a worker while none answers, s."""
 
-LOST = "the Dask scheduler was lost; the same command again goes on"
+LOST = "the Dask scheduler was lost; the same command resumes the run"
 
 AHEAD = 2
 """Tasks per worker thread that are handed out: the one it is in, and the next."""
 
 _LOG = logging.getLogger(__name__)
-"""What a person has to know at once; without further settings it goes to standard error."""
+"""Urgent messages; without further settings they go to standard error."""
 
 
 class UnfitError(Exception):
@@ -60,7 +60,7 @@ class Cluster:
     client
         Connected to the scheduler.
     scheduler
-        Its address, as a person gave it.
+        Its address, as it was given.
     """
 
     def __init__(self, client: "Client", scheduler: str) -> None:
@@ -110,7 +110,7 @@ class Cluster:
 
     @contextmanager
     def _loss_told(self) -> Iterator[None]:
-        """Say that the scheduler was lost, in whichever call that shows."""
+        """Raise that the scheduler was lost, in every call that can notice it."""
         try:
             yield
         except Exception as error:
@@ -123,7 +123,7 @@ class Cluster:
         return sum(self._client.nthreads().values())
 
     def _next(self, done: "Queue[Future[Any]]") -> "Future[Any]":
-        """Wait for a task's end; say once when there is nobody left to run any."""
+        """Wait for a task's end; log once that no worker is left."""
         said = False
         while True:
             try:
@@ -180,7 +180,7 @@ def _in_one_line(error: BaseException) -> str:
 
 
 def _placed(host: str, answer: Any) -> Any:
-    """Return an answer that says where it failed, if it did."""
+    """Return an answer that names the machine when it failed."""
     if isinstance(answer, Failed):
         return replace(answer, trace=f"On {host}:\n{answer.trace}")
     if isinstance(answer, InputError):
@@ -212,7 +212,7 @@ def cluster(scheduler: str) -> Iterator[Cluster]:
         reason = type(error).__name__
     if client is None:
         # The client that could not connect closes when it is collected, and waits for ever if that
-        # comes to pass while the next one is being made: Dask's lock is not reentrant.
+        # happens while the next one is being made: Dask's lock is not reentrant.
         gc.collect()
         raise InputError(
             f"--scheduler: no Dask scheduler answers at {scheduler!r} ({reason}); "

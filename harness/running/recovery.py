@@ -1,4 +1,4 @@
-"""Make sessions from their journals: what a living person did is not lost with a process."""
+"""Rebuild sessions from journals: a killed process loses nothing that a person did."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,9 +24,9 @@ class Recovery:
     whole
         Participants whose session was whole already.
     recovered
-        Participants whose session was made from its journal.
+        Participants whose session was rebuilt from its journal.
     faults
-        Why others could not be, a line each.
+        Why others could not be rebuilt, one line each.
     """
 
     whole: tuple[str, ...]

@@ -1,4 +1,4 @@
-"""Writes a lap's steps down, and sums the lap up."""
+"""Records a lap's steps, and computes the lap's row from them."""
 
 import math
 from typing import Any
@@ -18,7 +18,7 @@ class LapLog:
     Parameters
     ----------
     centreline
-        The course's, for arc length and section: metrics only, nobody drives by them.
+        The course's, for arc length and section: only for metrics, not for driving.
     demonstrated
         Whether the demonstrator drives in this lap; otherwise it is a shadow.
     """
@@ -102,7 +102,7 @@ def _prediction(answer: Assistance) -> dict[str, Any]:
 
 
 def summary(steps: pa.Table, ending: Ending, period: float) -> dict[str, Any]:
-    """Sum a lap up from its own steps: the lap row's fields that follow from the record.
+    """Return the lap row's fields that follow from the lap's own steps.
 
     Parameters
     ----------

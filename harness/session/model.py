@@ -1,4 +1,4 @@
-"""The learning assistant a protocol names, and what of it goes into the record."""
+"""The learning assistant a protocol names, and what the record keeps of it."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -22,7 +22,7 @@ def make_model(choice: ModelChoice, words: Mapping[str, str] | None = None) -> A
     choice
         As the protocol has it.
     words
-        What stands for a word in braces in an option that is text: ``{participant}`` for the
+        The values of words in braces in an option that is text: ``{participant}`` for the
         participant's id, ``{folder}`` for the folder where relative paths start.
 
     Raises

@@ -28,7 +28,7 @@ class SessionParts:
     Attributes
     ----------
     person
-        Who the participant is.
+        The participant.
     lap
         Driver, demonstrator and model.
     respondent
@@ -58,7 +58,7 @@ def make_every_part(run: StudyRun) -> None:
 
 
 def draw_person(run: StudyRun, number: int) -> Person:
-    """Return the person who is a synthetic participant, the same one in every run."""
+    """Return a synthetic participant, the same person in every run."""
     return drawn_from_cohort(run.study.protocol.cohort, generator(run.seed, number, "person"))
 
 
@@ -70,7 +70,7 @@ def make_parts(run: StudyRun, number: int, person: Person | None = None) -> Sess
     run, number
         The study and the participant, counted from 1.
     person
-        Who it is; None for the synthetic person that the seed draws.
+        The participant; None for the synthetic person that the seed draws.
 
     Raises
     ------
@@ -138,7 +138,7 @@ def _respondent(run: StudyRun, number: int, person: Person) -> Respondent | None
 
 
 def question(instrument: Instrument, item: Item) -> Question:
-    """Return an item as a respondent gets to know it."""
+    """Return an item as a respondent reads it."""
     return Question(
         instrument=instrument.name,
         item=item.id,

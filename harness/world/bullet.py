@@ -24,7 +24,7 @@ from protocols.pose import Pose
 
 @contextlib.contextmanager
 def _hushed() -> Iterator[None]:
-    """Send what the C library prints nowhere."""
+    """Discard what the C library prints."""
     sys.stdout.flush()
     sys.stderr.flush()
     kept, nowhere = (os.dup(1), os.dup(2)), os.open(os.devnull, os.O_WRONLY)
@@ -72,7 +72,7 @@ class BulletChair:
     Parameters
     ----------
     boxes
-        What stands in the way.
+        The obstacles.
     step
         Length of a physics step, s.
     """
@@ -104,7 +104,7 @@ class BulletChair:
         self._close()
 
     def place(self, pose: Pose) -> None:
-        """Put the chair down somewhere, at rest."""
+        """Place the chair at a pose, at rest."""
         x, y, heading = pose
         cx, cy, cz = self._centre
         cos, sin = math.cos(heading), math.sin(heading)

@@ -1,4 +1,4 @@
-"""What a sceptic would try first: simple assistants with the same inputs and the same protocol.
+"""Baselines: simpler assistants with the same inputs and the same protocol.
 
 A study protocol names one by its dotted path, e.g. ``model: {use: "lad.baselines.linear:make"}``.
 All but the memoryless Gaussian process need scikit-learn (``pip install 'lad-study[baselines]'``).

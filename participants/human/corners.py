@@ -1,4 +1,4 @@
-"""Sharp corners on the way, as a person sees them coming."""
+"""Sharp corners on the way, as a person sees them ahead."""
 
 import math
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""The room as a person knows it: the way through, its sharp corners, and what stands where."""
+"""The room as a person knows it: the way through, its sharp corners, and where obstacles are."""
 
 import math
 from functools import lru_cache
@@ -14,18 +14,18 @@ from protocols.pose import Pose
 from protocols.wheelchair import WIDTH
 
 STEP = 0.1
-"""How finely a straight line is looked along, m."""
+"""Distance between the points of a straight line that are checked, m."""
 
 
 class KnownRoom:
-    """What being shown around tells about a course.
+    """What a person knows about a course after being shown around.
 
     Parameters
     ----------
     route
         The way through.
     raster
-        What stands where.
+        Where obstacles are.
     """
 
     def __init__(self, route: Route, raster: Occupancy) -> None:

@@ -11,17 +11,17 @@ DEAD_BAND = 0.02
 """Deflections below this share of the full one do nothing."""
 
 OVERSHOOT = 1.5
-"""How far beyond the stick's end a hand pushes at most, as a share of full deflection."""
+"""How far beyond the stick's end an intention counts, as a share of full deflection."""
 
 NOISE_TIME = 0.8
-"""Correlation time of the hand's noise, s: errors drift, they do not jump."""
+"""Correlation time of the noise, s: errors drift, they do not jump."""
 
 
 class Stick:
     """One person's hand on the stick.
 
     Noise is proportional to the deflection (Harris & Wolpert, 1998) and an Ornstein-Uhlenbeck
-    process in time; it enters before the hand's lag. A stick held at its end does not tremble.
+    process in time; it enters before the lag. A stick at its end does not tremble.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class Stick:
         Parameters
         ----------
         intention
-            What the person would have the chair do, m/s and rad/s; may lie beyond the stick's end.
+            What the person wants the chair to do, m/s and rad/s; may be beyond the stick's end.
         passed
             Seconds since the last call.
         """

@@ -14,12 +14,12 @@ BEHIND, AHEAD, ASIDE = 1.0, 2.4, 1.7
 """How far the field reaches from the middle of the axle, m."""
 
 FAR = 1.5
-"""Distances are not told apart beyond this, m."""
+"""Larger distances count as this one, m."""
 
 ROWS = round(2 * ASIDE / CELL) + 1
 COLUMNS = round((BEHIND + AHEAD) / CELL) + 1
 SLACK = CELL * 2**0.5
-"""A return and a query both count as their cell's centre: together at most this wrong, m."""
+"""A return and a query both count as their cell's centre: the error is at most this, m."""
 
 
 def scan_field(
@@ -34,7 +34,7 @@ def scan_field(
     laser
         The sensor's mounting point ahead of the axle, m.
     longest
-        The range from which on nothing was seen, m.
+        A range of this or more means that nothing was seen, m.
 
     Returns
     -------

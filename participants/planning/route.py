@@ -23,11 +23,11 @@ SMOOTHING = 0.2
 """Standard deviation of the Gaussian that smooths a path, m."""
 
 RUN_OUT = 1.0
-"""How far a route goes on straight past the last gate, m."""
+"""How far a route continues straight past the last gate, m."""
 
 
 class Progress(NamedTuple):
-    """Where one is on a route: arc length in m, and distance from it in m, left positive."""
+    """A place on a route: arc length in m, and distance from it in m, left positive."""
 
     arc: float
     offset: float
@@ -54,14 +54,14 @@ class Route:
         self.headings = np.unwrap(np.arctan2(tangents[:, 1], tangents[:, 0]))
 
     def locate(self, pose: Pose, gates_passed: int, near: float | None = None) -> Progress:
-        """Return the nearest point between the gates one is between.
+        """Return the nearest point of the route between the last gate passed and the next one.
 
         Parameters
         ----------
         pose
-            Where one is.
+            Where the chair is.
         gates_passed
-            How many gates lie behind; the answer is never past the next one.
+            How many gates the chair has passed; the answer is never past the next one.
         near
             Arc length a moment ago, m: the answer is then within 1 m of it, unless everything
             there is farther away than 1 m.
@@ -138,7 +138,7 @@ def centreline_route(course: Course) -> Route:
 
 
 def _run_out(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Go on past the end, in the direction of the last half metre."""
+    """Continue past the end, in the direction of the last half metre."""
     distances = np.hypot(*(points - points[-1]).T)
     before = points[np.flatnonzero(distances >= min(0.5, distances.max()))[-1]]
     direction = (points[-1] - before) / np.hypot(*(points[-1] - before))

@@ -12,7 +12,7 @@ from protocols.files.errors import InputError
 from protocols.wheelchair import WIDTH
 
 COMFORT = 0.8
-"""Distance from obstacles beyond which a path is not made to pass still farther away, m."""
+"""Distance from obstacles beyond which more distance no longer makes a path cheaper, m."""
 
 DETOUR = 3.0
 """How many metres a metre along an obstacle at half the chair's width counts in addition."""

@@ -1,4 +1,4 @@
-"""What stands around the chair, also where its laser does not look."""
+"""Obstacles around the chair, also where its laser does not look."""
 
 import math
 from functools import lru_cache
@@ -15,7 +15,7 @@ from protocols.pose import Pose
 
 @lru_cache(maxsize=16)
 def known_raster(course: Course) -> Occupancy:
-    """Return a course's raster as everybody who knows the room has it, made once."""
+    """Return a course's raster, made once for all who know the room."""
     return occupancy(course)
 
 
@@ -40,6 +40,6 @@ def map_field(raster: Occupancy, pose: Pose) -> NDArray[np.float64]:
     columns = (pose.x + c * ahead - s * left - raster.origin[0]) / raster.cell
     rows = (pose.y + s * ahead + c * left - raster.origin[1]) / raster.cell
     found = ndimage.map_coordinates(raster.distance, [rows, columns], order=1, mode="nearest")
-    # Both rasters answer for the whole cell with its centre's distance.
+    # Both rasters give the centre's distance for the whole cell.
     distance: NDArray[np.float64] = np.clip(found - CELL / math.sqrt(2.0), 0.0, FAR)
     return distance

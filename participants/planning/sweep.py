@@ -16,7 +16,7 @@ TOUCHING = 0.01
 """Less room than this counts as none, m."""
 
 NUDGE = 0.005
-"""The least the chair is moved between two looks, m: less than ``TOUCHING``."""
+"""The least distance between two checks, m: less than ``TOUCHING``."""
 
 
 class Sweep(NamedTuple):
@@ -38,8 +38,8 @@ def sweep(field: NDArray[np.float64], command: Command, horizon: float) -> Sweep
     """Follow a command through a distance field.
 
     Conservative advancement: where the nearest obstacle is d away, no point of the chair gets
-    there before it has moved by d, so the next look can wait that long. The answers never promise
-    more than is free; they fall short by at most the discs' overlap and the field's slack.
+    there before it has moved by d, so the next check can wait that long. The answers are never more
+    than is free; they are less by at most the discs' overlap and the field's slack.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def advance(field: Any, v: float, w: float, horizon: float) -> Any:
     """Return (seconds until a possible touch, least room on the way)."""
     speed = abs(v) + abs(w) * SWING
     least = room_at(field, 0.0, 0.0, 0.0)
-    # A chair that already stands too close may still move as long as it gets no closer.
+    # A chair that is already too close may still move as long as it gets no closer.
     touching = min(TOUCHING, least)
     room = least
     t = 0.0

@@ -1,4 +1,4 @@
-"""Where along the lap: arc length on the centreline, and the section one is in."""
+"""Where along the lap: arc length on the centreline, and the section there."""
 
 import math
 from typing import Any, NamedTuple
@@ -11,7 +11,7 @@ from protocols.course.schema import Course, SectionKind
 from protocols.pose import Pose
 
 REACH = 1.5
-"""How far along the lap one may have got since the last projection, m."""
+"""How far along the lap the chair may have moved since the last projection, m."""
 
 
 class Stretch(NamedTuple):
@@ -72,7 +72,7 @@ class Centreline:
             The point, m.
         near
             Arc length of the projection a moment before, m; the projection then stays within
-            ``REACH`` of it, so that a neighbouring leg cannot steal it. None: the nearest of all.
+            ``REACH`` of it, so that it never jumps to a neighbouring leg. None: the nearest of all.
 
         Returns
         -------

@@ -1,4 +1,4 @@
-"""Refuse a course that nobody could drive, and say why in one line."""
+"""Refuse a course that cannot be driven, and give the reason in one line."""
 
 import itertools
 import math
@@ -32,7 +32,7 @@ def check_drivable(course: Course) -> None:
     Raises
     ------
     InputError
-        With what ``undrivable`` says.
+        With the reason that ``undrivable`` gives.
     """
     fault = undrivable(course)
     if fault is not None:
@@ -40,14 +40,14 @@ def check_drivable(course: Course) -> None:
 
 
 def undrivable(course: Course) -> Fault | None:
-    """Say why a lap cannot be driven, and where in the file; None when it can.
+    """Return why a lap cannot be driven, and where in the file; None when it can.
 
     The start overlaps an obstacle or is far from the centreline, a gate is closed, the centreline
     runs through an obstacle or misses a gate, or no path of the chair's width leads through the
     gates in their order.
     """
-    plan = floor_plan(course)
-    checks = (_start(course), _closed(course, plan), _centreline(course, plan), _path(course))
+    floor = floor_plan(course)
+    checks = (_start(course), _closed(course, floor), _centreline(course, floor), _path(course))
     return next(itertools.chain.from_iterable(checks), None)
 
 
@@ -71,10 +71,10 @@ def _start(course: Course) -> Iterator[Fault]:
         yield Fault(("start",), message)
 
 
-def _closed(course: Course, plan: FloorPlan) -> Iterator[Fault]:
+def _closed(course: Course, floor: FloorPlan) -> Iterator[Fault]:
     for i, gate in enumerate(course.gates):
         line = shapely.LineString([gate.left, gate.right])
-        opening = shapely.get_parts(line.difference(plan))
+        opening = shapely.get_parts(line.difference(floor))
         widest = max((float(shapely.length(piece)) for piece in opening), default=0.0)
         if widest < wheelchair.WIDTH:
             boxes = obstacle_boxes(course)
@@ -87,10 +87,10 @@ def _closed(course: Course, plan: FloorPlan) -> Iterator[Fault]:
             )
 
 
-def _centreline(course: Course, plan: FloorPlan) -> Iterator[Fault]:
+def _centreline(course: Course, floor: FloorPlan) -> Iterator[Fault]:
     line = shapely.LineString(course.centreline)
-    if line.intersects(plan):
-        x, y = shapely.get_coordinates(line.intersection(plan))[0]
+    if line.intersects(floor):
+        x, y = shapely.get_coordinates(line.intersection(floor))[0]
         message = f"runs through an obstacle at ({x:.2f}, {y:.2f})"
         yield Fault(("centreline",), message)
     points = [(float(x), float(y)) for x, y in shapely.get_coordinates(line.segmentize(0.05))]

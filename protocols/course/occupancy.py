@@ -28,7 +28,7 @@ class Occupancy:
         every obstacle.
     distance
         Same shape: distance from the cell's centre to the nearest obstacle, m; 0 inside one. An
-        obstacle thinner than a cell may cover no centre: go by this, not by ``free`` alone.
+        obstacle thinner than a cell may cover no centre: use this, not ``free`` alone.
     """
 
     origin: tuple[float, float]

@@ -1,4 +1,4 @@
-"""A course as data: what a course file may say."""
+"""A course as data: the fields of a course file."""
 
 import itertools
 import math
@@ -93,7 +93,7 @@ class Course(FileModel):
         for i, wall in enumerate(self.walls):
             yield from _repeated_points(wall.points, ("walls", i, "points"))
             if wall.closed and math.dist(wall.points[0], wall.points[-1]) < MIN_STEP:
-                message = "a closed wall returns by itself; leave out its last point"
+                message = "a closed wall ends at its first point; leave out its last point"
                 yield Fault(("walls", i, "points", len(wall.points) - 1), message)
         for i, gate in enumerate(self.gates):
             if math.dist(gate.left, gate.right) < MIN_STEP:
@@ -101,7 +101,7 @@ class Course(FileModel):
         yield from _repeated_points(self.centreline, ("centreline",))
 
     def _repeated_names(self) -> Iterator[Fault]:
-        """Find gates or sections that cannot be told apart in the record."""
+        """Find gates or sections with the same name in the record."""
         for field, parts in (("gates", self.gates), ("sections", self.sections)):
             names = [part.name for part in parts]
             for i, name in enumerate(names):

@@ -1,4 +1,4 @@
-"""A YAML file as plain data that still knows its lines."""
+"""A YAML file as plain data with the line of every value."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field

@@ -1,16 +1,16 @@
-"""The one exception that means: it is your input, and here is what to change."""
+"""The one exception for faulty input; its message tells what to change."""
 
 
 class InputError(Exception):
-    """Something a person gave cannot be used.
+    """Input that cannot be used.
 
-    The message is one line that says where, what and what is allowed. The command line prints it
+    The message is one line: where, what, and what is allowed. The command line prints it
     and exits with 2; nothing is overwritten or left half-written.
 
     Parameters
     ----------
     faults
-        One line per fault, the first to mend first; at least one.
+        One line per fault, at least one; the one to correct first comes first.
 
     Examples
     --------

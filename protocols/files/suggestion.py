@@ -1,4 +1,4 @@
-"""Say what is allowed, and guess what was meant."""
+"""List what is allowed, and guess what was meant."""
 
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
@@ -7,7 +7,7 @@ from difflib import get_close_matches
 def allowed(given: str, names: Iterable[str], kinds: Iterable[str] = ()) -> str:
     """Return the end of a message: the allowed names and, where one is near, a guess.
 
-    ``kinds`` of things that are allowed besides, such as a file, stand first and are no guess.
+    Other ``kinds`` that are allowed, such as a file, come first and are never a guess.
 
     Examples
     --------
@@ -21,7 +21,7 @@ def allowed(given: str, names: Iterable[str], kinds: Iterable[str] = ()) -> str:
 
 
 def listed(names: Sequence[str]) -> str:
-    """Return the end of a message: what there is, shortened where it is much.
+    """Return the end of a message: the names there are; a long list is shortened.
 
     Examples
     --------

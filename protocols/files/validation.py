@@ -1,4 +1,4 @@
-"""Check a file's data against a model, and say what is wrong in the words of the file."""
+"""Check a file's data against a model, and name each fault with the words of the file."""
 
 import json
 from collections.abc import Iterable
@@ -34,7 +34,7 @@ def validate(document: Document, model: type[Model]) -> Model:
 
 
 def _misspelt(item: Any, items: Iterable[Any]) -> bool:
-    """Tell whether a missing field is there under a similar name; one fault is enough then."""
+    """Return whether a missing field is there under a similar name; one fault is enough then."""
     parent, name = item["loc"][:-1], item["loc"][-1:]
     return item["type"] == "missing" and any(
         get_close_matches(str(other["loc"][-1]), [str(*name)])

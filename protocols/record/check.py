@@ -38,8 +38,8 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
     """Return what is wrong with a study directory, one line each; empty when all is well.
 
     Every session's files are compared with their checksums and with one another, the tables with
-    the sessions, the codebook with the schema, and the sessions with the plan. Of a study that was
-    recorded elsewhere, which has no checksums, every table is read.
+    the sessions, the codebook with the schema, and the sessions with the protocol. Of a study
+    that was recorded elsewhere, which has no checksums, every table is read.
 
     Raises
     ------
@@ -64,7 +64,7 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
         faults += [f"{fault}; {_mend(header, session, again)}" for fault in found]
         if not found:
             sound.append(session.name)
-    # A damaged session cannot be compared with the tables: its own faults say enough.
+    # A damaged session cannot be compared with the tables: its own faults are enough.
     if len(sound) == len(sessions):
         faults += _table_faults(folder, sound, again)
     return tuple(faults)
@@ -73,11 +73,11 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
 def _mend(header: StudyHeader, session: Path, again: str) -> str:
     """Return what to do about a damaged session: only a simulated one may be deleted."""
     if header.origin == "simulated":
-        return f"remove {session}, then {again} makes it anew"
+        return f"remove {session}, then {again} rebuilds it"
     journal = journal_path(session.parents[1], session.name)
     if journal.is_file():
-        return f"`lad-study recover {session.parents[1]}` makes it again from {journal}"
-    return "it is a living person's and has no journal: keep it, and mend it by hand"
+        return f"`lad-study recover {session.parents[1]}` rebuilds it from {journal}"
+    return "it is a living person's and has no journal: keep it, and repair it by hand"
 
 
 def _foreign_faults(folder: Path) -> Iterator[str]:
@@ -104,7 +104,7 @@ def _header_faults(folder: Path, header: StudyHeader, again: str) -> Iterator[st
         )
     path = folder / CODEBOOK_FILE
     if not path.is_file() or path.read_bytes() != codebook_json().encode():
-        yield f"{path}: missing, or not this version's; {again} makes it anew"
+        yield f"{path}: missing, or not this version's; {again} rebuilds it"
 
 
 def _missing_sessions(
@@ -140,7 +140,7 @@ def _sessions_beyond(
 
 
 def _session_faults(session: Path, header: StudyHeader) -> Iterator[str]:
-    """Check the files of one session: bytes first, then what they say."""
+    """Check the files of one session: first their bytes, then their contents."""
     damaged = list(session_faults(session))
     yield from damaged
     if damaged:
@@ -165,7 +165,7 @@ def _content_faults(session: Path, study: ResolvedStudy, seed: int) -> Iterator[
             yield f"{session}: rows of {strangers.pop()} in the session of {session.name}"
     driven = participant["laps_driven"].to_pylist()
     if driven != [laps.num_rows]:
-        yield f"{session / LAPS_FILE}: {laps.num_rows} laps; the participant's row says {driven}"
+        yield f"{session / LAPS_FILE}: {laps.num_rows} laps; the participant's row has {driven}"
     yield from _lap_faults(session, laps)
     yield from _survey_faults(session, laps, surveys, study, seed)
 
@@ -186,7 +186,7 @@ def _lap_faults(session: Path, laps: pa.Table) -> Iterator[str]:
         if not any(schema.equals(arrow_schema(STEP_COLUMNS, v)) for v in SCHEMA_VERSIONS):
             yield f"{path}: its columns are not those of the record"
         if recorded != steps:
-            yield f"{path}: {recorded} steps; the lap's row says {steps}"
+            yield f"{path}: {recorded} steps; the lap's row has {steps}"
 
 
 def _survey_faults(
@@ -217,7 +217,7 @@ def _table_faults(folder: Path, participants: list[str], again: str) -> Iterator
             there = brought_up_to_date(read_parquet(path), columns)
             same = there is not None and there.equals(wanted)
         except InputError as error:
-            yield f"{error}; {again} makes it anew"
+            yield f"{error}; {again} rebuilds it"
             continue
         if not same:
-            yield f"{path}: does not hold the rows of the sessions; {again} makes it anew"
+            yield f"{path}: does not hold the rows of the sessions; {again} rebuilds it"

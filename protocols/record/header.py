@@ -33,14 +33,14 @@ def _origin_of_version_1(data: Mapping[str, Any]) -> Origin:
 
 
 class StudyHeader(FileModel):
-    """What a study directory says about itself.
+    """The head of a study directory: which study it holds.
 
     Attributes
     ----------
     protocol, course, instruments
         The study as it was resolved.
     origin
-        Where the study comes from. A header of version 1 does not say: with a seed it was
+        Where the study comes from. A header of version 1 lacks it: with a seed it was
         simulated, without one recorded elsewhere.
     seed
         None for a study that was recorded elsewhere.
@@ -92,7 +92,7 @@ def write_header(folder: Path, header: StudyHeader) -> None:
 
 
 def read_header(folder: Path) -> StudyHeader:
-    """Return what a study directory says about itself.
+    """Return the head of a study directory.
 
     Raises
     ------

@@ -22,7 +22,7 @@ is the study it was: its digest and its record stay the same."""
 
 
 def study_digest(study: ResolvedStudy, seed: int) -> str:
-    """Return the SHA-256 of everything a session depends on besides the participant's number.
+    """Return the SHA-256 of everything but the participant's number that a session depends on.
 
     The number of participants is left out: a study can be enlarged.
     """
@@ -51,7 +51,7 @@ def identity_differences(here: Mapping[str, Any], wanted: Mapping[str, Any]) -> 
 
 
 def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
-    """Return everything a session depends on besides the participant's number, as plain data."""
+    """Return everything but the participant's number that a session depends on, as plain data."""
     protocol = study.protocol.model_dump(mode="json", by_alias=True)
     del protocol["cohort"]["participants"]
     _leave_out_defaults(protocol, "protocol")

@@ -26,7 +26,7 @@ def write_failure(folder: Path, participant: str, trace: str) -> None:
 
 
 def write_given_up(folder: Path, participant: str, reason: str) -> None:
-    """Keep why a session was given up whose processes died: the next run tries it again."""
+    """Keep why a session was given up after its processes died: the next run tries it again."""
     write_log(folder, _name("died", participant), f"{reason}\n")
 
 
@@ -82,7 +82,7 @@ def write_death(folder: Path, participant: str, reason: str) -> None:
 
 
 def write_warnings(folder: Path, participant: str, warned: Sequence[str]) -> None:
-    """Keep what Python warned of during a session; writes nothing when there was nothing."""
+    """Keep Python's warnings of a session; writes nothing when there were none."""
     if warned:
         write_log(folder, f"warnings-{participant}.txt", "\n".join(warned) + "\n")
 
@@ -101,7 +101,7 @@ def _append(folder: Path, name: str, row: Sequence[str], header: Sequence[str]) 
         stream.write(text.getvalue().encode())
 
 
-def _is_cut_short(stream: BinaryIO) -> bool:
-    """Tell whether a run was killed in the middle of the last line."""
-    stream.seek(-1, os.SEEK_END)
-    return stream.read() != b"\n"
+def _is_cut_short(opened: BinaryIO) -> bool:
+    """Return whether a run was killed in the middle of the last line."""
+    opened.seek(-1, os.SEEK_END)
+    return opened.read() != b"\n"

@@ -38,7 +38,7 @@ class Study:
     folder
         The study directory.
     header
-        What ``study.yaml`` says: protocol, course, instruments, seed, versions.
+        The contents of ``study.yaml``: protocol, course, instruments, seed, versions.
     """
 
     folder: Path
@@ -184,7 +184,7 @@ def open_study(folder: Path | str) -> Study:
     Raises
     ------
     InputError
-        When it is none, has no session yet, one of its tables cannot be used, or they lack
+        When it is no study directory, has no session yet, has an unusable table, or its tables lack
         sessions that a run which was stopped has finished.
 
     Examples
@@ -201,7 +201,9 @@ def open_study(folder: Path | str) -> Study:
     for name, rows in ((PARTICIPANTS_TABLE, study.participants), (LAPS_TABLE, study.laps)):
         if not len(rows):
             raise InputError(f"{folder / name}: has no row{_what_to_do(study)}")
-    if not study.elsewhere:  # elsewhere nobody can make them anew: their faults are reported
+    if (
+        not study.elsewhere
+    ):  # no run here can rebuild those of other programs: their faults are reported
         for _, fault in off_scale(study):
             raise InputError(fault)
     _refuse_stale_tables(study)
@@ -209,23 +211,23 @@ def open_study(folder: Path | str) -> Study:
 
 
 def _what_to_do(study: Study) -> str:
-    """Return how a table without a row comes to have some."""
+    """Return what to do about a table without a row."""
     if study.elsewhere:
         return "; a report needs at least one participant and one lap"
     n = len(study.sessions())
     if not n:
         return " and there is no session in the study yet; run it first"
-    return f", but there are {n} sessions; the same `lad-study run` again makes it anew"
+    return f", but there are {n} sessions; the same `lad-study run` again rebuilds it"
 
 
 def _refuse_stale_tables(study: Study) -> None:
-    """Refuse tables that a stopped run has not come to build: they would hide its sessions."""
-    if study.elsewhere:  # recorded elsewhere: who is in the tables is its makers' choice
+    """Refuse tables older than a stopped run's sessions: they would hide those sessions."""
+    if study.elsewhere:  # recorded elsewhere: its makers decided who is in the tables
         return
     known = set(study.participants["participant"].to_pylist())
     new = [name for name in finished_sessions(study.folder) if name not in known]
     if new:
         raise InputError(
             f"{study.folder / PARTICIPANTS_TABLE}: lacks {len(new)} finished sessions ({new[0]} "
-            "first): a run is not over, or was stopped; the same `lad-study run` again ends it"
+            "first): a run is not over, or was stopped; the same `lad-study run` again finishes it"
         )

@@ -55,8 +55,8 @@ class StepRecorder:
         Raises
         ------
         ValueError
-            When a step lacks a column that may not be missing, has a column nobody knows, or
-            holds a value of the wrong type, NaN or infinity; says which.
+            When a step lacks a column that may not be missing, has an unknown column, or
+            holds a value of the wrong type, NaN or infinity; names the column.
         """
         self._check_names()
         inputs = np.array(self._inputs, dtype=np.float64).reshape(len(self), N_INPUTS)

@@ -112,7 +112,7 @@ def test_the_last_answer_counts(make_study, tmp_path):
 
 
 def test_answers_that_nobody_can_use_are_named(make_study):
-    """Of somebody unknown, in an unknown condition, to an unknown item."""
+    """Of an unknown participant, in an unknown condition, to an unknown item."""
 
     def spoilt(surveys):
         surveys.loc[0, "participant"] = "GHOST"

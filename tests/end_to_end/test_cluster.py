@@ -137,7 +137,7 @@ def test_a_machine_that_lacks_something_leaves(scheduler, add_worker, start, wai
 def test_a_run_without_a_worker_says_so_and_waits(
     scheduler, add_worker, start_quick, wait_until, finished, record, undisturbed, tmp_path
 ):
-    """With the next worker it goes on, to the same bytes."""
+    """With the next worker it resumes, to the same bytes."""
     out, only = tmp_path / "study", add_worker(1)
     run = start_quick(out, "--scheduler", scheduler[1])
     wait_until(lambda: finished(out) >= 1)
@@ -153,7 +153,7 @@ def test_a_lost_scheduler_ends_a_run_in_one_line(
     scheduler, add_worker, start_quick, wait_until, finished, run_quick, record, undisturbed,
     tmp_path,
 ):  # fmt: skip
-    """What was finished is kept, and the same study goes on without the cluster."""
+    """What was finished is kept, and the same study resumes without the cluster."""
     out = tmp_path / "study"
     add_worker(1)
     run = start_quick(out, "--scheduler", scheduler[1])
@@ -162,6 +162,6 @@ def test_a_lost_scheduler_ends_a_run_in_one_line(
     ended = run.ended()
     assert ended.code == 1
     said = [line for line in ended.err.splitlines() if not line.startswith("Sessions ")]
-    assert said == ["lad-study: the Dask scheduler was lost; the same command again goes on"]
+    assert said == ["lad-study: the Dask scheduler was lost; the same command resumes the run"]
     assert run_quick(out).code == 0
     assert record(out) == undisturbed

@@ -50,7 +50,7 @@ def elsewhere(tmp_path, monkeypatch):
 
 @pytest.fixture
 def setup(lab_office):
-    """Return what a driver is made of."""
+    """Return what a driver is made from."""
     options = {"commands": [[0.0, 0.5, 0.0]]}
     return DriverSetup(lab_office, np.random.default_rng(0), options=options)
 

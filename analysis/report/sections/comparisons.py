@@ -44,7 +44,7 @@ def comparison_section(results: StudyResults) -> Section:
 
 
 def _undeclared(results: StudyResults) -> list[PairedComparison]:
-    """Return the pairs that have no place of their own, where their p may be corrected."""
+    """Return the pairs without a table of their own, where their p may be corrected."""
     declared = {
         frozenset((c.condition, c.reference)) for c in results.declared if c.outcome == "lap_time_s"
     }

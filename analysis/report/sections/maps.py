@@ -16,7 +16,7 @@ def map_section(results: StudyResults) -> Section:
     frames, sections = results.frames, results.sections
     helped = [p.condition for p in frames.parts if p.role in ("demonstrator", "model")]
     if not helped:
-        nothing = Paragraph("In no condition of this study could anybody help.")
+        nothing = Paragraph("No condition of this study has an assistant.")
         return Section("assistance", "Where assistance was given", (nothing,))
     blocks: list[Block] = [
         *_map(results, helped),
@@ -34,7 +34,7 @@ def map_section(results: StudyResults) -> Section:
 
 
 def _map(results: StudyResults, helped: Sequence[str]) -> tuple[Block, ...]:
-    """Return the map and how far its sources overlap; why not, where nobody's place is known."""
+    """Return the map and how far its sources overlap; the reason where no position is known."""
     steps = results.records.steps
     placed = steps[["x_m", "y_m"]].notna().all(axis=1)
     if not placed.any():
@@ -72,7 +72,7 @@ def _overlap(found: TestResult | None) -> str:
 
 
 def _most(results: StudyResults) -> str:
-    """Say for every helped condition where its assistance was."""
+    """Return for every helped condition where its assistance was, in words."""
     said = []
     for condition, rows in results.sections.groupby("condition", sort=False):
         by_kind = rows.groupby("kind")["share_of_assistance_percent"].sum(min_count=1).dropna()

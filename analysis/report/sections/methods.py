@@ -1,4 +1,4 @@
-"""Methods, as text for a paper: what this study did, and nothing that it did not."""
+"""Methods, as text for a paper: only what this study did."""
 
 import math
 from collections.abc import Iterable, Iterator
@@ -16,7 +16,7 @@ from protocols.declared import Comparison
 
 
 def methods_section(results: StudyResults) -> Section:
-    """Return text that can be pasted into a paper; a sentence is there if what it says was done."""
+    """Return text that can be pasted into a paper; each sentence tells what was done."""
     parts = (_design, _declared, _comparisons, _models, _questionnaires, _maps, _model_quality)
     texts = [" ".join(part(results)) for part in parts]
     texts.append(f"Analysis: {_listed(analysis_versions())}.")
@@ -59,8 +59,8 @@ def _exclusion(results: StudyResults) -> Iterator[str]:
         said.append(f"collided more than {plural(rules.max_collisions, 'time')}")
     if said:
         yield (
-            f"The protocol excludes from every analysis whoever {' or '.join(said)} (practice "
-            "apart)."
+            "The protocol excludes from every analysis participants who "
+            f"{' or '.join(said)} (practice apart)."
         )
     reasons = "; ".join(f"{reason}: {n}" for reason, n in excluded.items())
     yield f"Excluded: {reasons}." if excluded else "Nobody was excluded."
@@ -133,7 +133,7 @@ def _models(results: StudyResults) -> Iterator[str]:
     if any(found.checks for found in results.model):
         yield "The fit was checked for convergence and for effects of exactly zero."
     else:
-        yield "It took the place of a mixed model that could not be fitted."
+        yield "It replaced a mixed model that could not be fitted."
     if _used(results.contrasts):
         yield (
             "The same contrasts were computed from each participant's own laps, each with its own "

@@ -26,7 +26,7 @@ def test_where_no_scheduler_answers_the_address_is_named(monkeypatch, address):
     """The address, and what one looks like, are said within the patience there is."""
     pytest.importorskip("distributed")
     monkeypatch.setattr(cluster, "PATIENCE_S", 0.5)
-    with socket.socket() as taken:  # bound, but nobody listens
+    with socket.socket() as taken:  # bound, but not listening
         taken.bind(("127.0.0.1", 0))
         address = address.format(free=taken.getsockname()[1])
         with pytest.raises(InputError) as error:
@@ -180,7 +180,7 @@ def test_failures_name_the_machine(run, answer, told):
 
 
 def test_when_no_worker_is_left_that_is_said_once(run, monkeypatch, caplog):
-    """The run waits, and goes on as soon as there is one."""
+    """The run waits, and continues as soon as there is one."""
     client, answers = run
     monkeypatch.setattr(cluster, "LOOK_S", 0.01)
     looks, held = [], []

@@ -50,7 +50,7 @@ def test_a_damaged_session_is_set_aside_and_made_again(live_study):
     damaged = steps.read_bytes()[:-7] + b"damaged"
     steps.write_bytes(damaged)
     (fault,) = (f for f in check_study(live_study) if "its checksum differs" in f)
-    assert f"`lad-study recover {live_study}` makes it again" in fault
+    assert f"`lad-study recover {live_study}` rebuilds it" in fault
     assert "remove" not in fault
     assert recover_sessions(live_study).recovered == ("P0001", "P0002")
     assert {path.name: path.read_bytes() for path in session.iterdir()} == before
@@ -75,12 +75,12 @@ def test_a_journal_that_cannot_be_used_is_named(live_study, capsys, monkeypatch)
         main()
     said = capsys.readouterr()
     assert end.value.code == 1
-    assert "P0002: made from its journal" in said.out
+    assert "P0002: rebuilt from its journal" in said.out
     assert "participant: P0002 there, P0003 wanted" in said.err
 
 
 def test_a_live_study_is_not_run_as_a_simulated_one(live_study, make_run):
-    """`lad-study run` would delete and make anew what only people can do."""
+    """`lad-study run` would delete and simulate what only people can do."""
     run = make_run(participants=2)
     with pytest.raises(InputError, match="origin live, not simulated"):
         open_folder(live_study, run.study, run.seed)

@@ -30,7 +30,7 @@ def sessions(run, numbers, jobs):
         return dict(run_sessions(workers, run, numbers))
 
 
-def test_a_session_is_a_function_of_plan_and_number(make_run):
+def test_a_session_is_a_function_of_run_and_number(make_run):
     """Here or in a worker, alone or after others, first or again: the same bytes."""
     run = portable(make_run(participants=4))
     here = {n: attempt(run, n).files for n in (3, 1, 3, 2, 4)}
@@ -55,7 +55,7 @@ def test_a_session_that_raises_fails_alone(make_run, unlucky, tmp_path):
 
 @pytest.mark.parametrize("end", ["sys.exit(3)", "raise KeyboardInterrupt"])
 def test_who_would_end_the_program_ends_a_session(make_run, tmp_path, end):
-    """The worker goes on, and the traceback says who it was; so it is in the rehearsal."""
+    """The worker continues, and the traceback names the cause; also in the check of all parts."""
     (tmp_path / "quitter.py").write_text(QUITTER.format(end=end))
     ended = sessions(make_run(driver="{use: 'quitter:quitter'}"), [1, 2], 1)
     assert {type(session) for session in ended.values()} == {Failed}
@@ -104,7 +104,7 @@ def test_warnings_come_back_with_the_session(make_run):
     ],
 )
 def test_a_part_that_cannot_be_made_is_an_input_fault(make_run, driver, parts):
-    """The rehearsal is held where the sessions are run, and its faults come back as one line."""
+    """The parts are checked where the sessions are run, and faults come back as one line."""
     with open_workers(1) as workers, pytest.raises(InputError) as error:
         try_parts(workers, make_run(driver=driver))
     for part in parts:
@@ -112,8 +112,8 @@ def test_a_part_that_cannot_be_made_is_an_input_fault(make_run, driver, parts):
     assert "\n" not in str(error.value)
 
 
-def test_a_plan_that_can_be_carried_out_passes_the_rehearsal(make_run):
-    """The workers that rehearsed go on to run the sessions."""
+def test_a_run_whose_parts_can_be_made_passes_the_check(make_run):
+    """The workers that checked the parts also run the sessions."""
     run = make_run()
     with open_workers(1) as workers:
         try_parts(workers, run)

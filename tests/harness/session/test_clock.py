@@ -69,7 +69,7 @@ def test_pauses_are_not_lap_time(clock):
 
 
 def test_a_lap_can_begin_in_its_middle(clock):
-    """A session that goes on after a restart has driven some of its lap already."""
+    """A session that resumes after a restart has driven some of its lap already."""
     clock.start(12.3)
     clock.wait_until(12.4)
     assert clock.now[0] == pytest.approx(100.1)

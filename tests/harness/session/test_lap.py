@@ -158,7 +158,7 @@ def test_the_model_gets_nineteen_numbers_and_never_the_room(stage):
     ],
 )
 def test_only_the_conditions_assistant_counts(stage, assistant, control, moved):
-    """Everybody answers in every lap; the condition decides whose answer moves the chair."""
+    """All parts answer in every lap; the condition decides whose answer moves the chair."""
     lap, _, keeper, _ = stage(assistant)
     lap.drive(keeper, VirtualClock())
     step = keeper.steps[3]
@@ -245,7 +245,7 @@ def test_a_driver_who_never_says_anything_stands(stage):
 
 
 class StopsAfter:
-    """A clock that somebody stops after some steps, and that tells how late each step was."""
+    """A clock that is stopped after some steps, and that returns how late each step was."""
 
     def __init__(self, steps):
         self.left = steps

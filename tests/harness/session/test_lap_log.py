@@ -85,7 +85,7 @@ def test_a_demonstration_records_signal_and_command(written):
 
 
 def test_the_model_is_recorded_while_it_only_watches(written):
-    """p(h), mean and variance stand in every step, whoever drives."""
+    """p(h), mean and variance are in every step, with any driver."""
     row = written(step())[0]
     assert (row["p_help"], row["mean_v"], row["mean_w"], row["variance"]) == (0.25, 0.1, -0.4, 0.02)
 

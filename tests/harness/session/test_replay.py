@@ -35,7 +35,7 @@ def test_a_journal_changes_nothing(every_stage, toy_world, journaled):
 
 
 def test_replaying_gives_the_same_bytes(every_stage, toy_world, journaled):
-    """Nobody is asked again, and nothing differs: steps, rows, answers, model."""
+    """No person is asked again, and nothing differs: steps, rows, answers, model."""
     record, path = journaled
     assert encode(again(every_stage, toy_world, path)) == encode(record)
 

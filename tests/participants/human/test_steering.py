@@ -27,10 +27,10 @@ def route():
 
 
 def limited():
-    """Return the knowledge of somebody whose right turns give 0.3 of what is asked."""
+    """Return the knowledge of a person whose right turns give 0.3 of what is asked."""
     response = TurnResponse(1.0)
     for _ in range(200):
-        response.feel(Command(0.0, -0.5), Command(0.0, -0.15), 0.1, trusted=True)
+        response.observe(Command(0.0, -0.5), Command(0.0, -0.15), 0.1, trusted=True)
     return response
 
 

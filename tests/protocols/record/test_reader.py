@@ -154,7 +154,7 @@ def test_an_answer_off_the_scale_is_named(folder: Path, given: int):
 
 
 def test_answers_from_elsewhere_are_not_refused(folder: Path):
-    """Nobody can run that study again: it opens, and whoever reads the answers is told."""
+    """That study cannot be run again: it opens, and readers of the answers get a message."""
     header = folder / "study.yaml"
     header.write_text(
         re.sub("(?m)^seed: .*\norigin: .*$", "seed: null\norigin: elsewhere", header.read_text())
@@ -177,7 +177,7 @@ def test_answers_from_elsewhere_are_not_refused(folder: Path):
     [
         (
             "simulated",
-            "has no row, but there are 3 sessions; the same `lad-study run` again makes it anew",
+            "has no row, but there are 3 sessions; the same `lad-study run` again rebuilds it",
         ),
         ("elsewhere", "has no row; a report needs at least one participant and one lap"),
     ],
