@@ -1,7 +1,6 @@
 """The seam every world fits: observed, guarded and moved on, one control step at a time."""
 
-from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +9,7 @@ from lad.command import Command
 from protocols.pose import Pose
 
 
-@dataclass(frozen=True, slots=True)
-class Observation:
+class Observation(NamedTuple):
     """What the instruments say at the start of a control step.
 
     Attributes

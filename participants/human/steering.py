@@ -1,7 +1,7 @@
 """Where a person would have the chair go now: direction, speed, and how hard to turn."""
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from lad.command import Command
 from participants.human.corners import Corner
@@ -29,8 +29,7 @@ FIRM = 0.9
 """Whoever asks for this share of full deflection pushes the stick to its end."""
 
 
-@dataclass(frozen=True, slots=True)
-class Situation:
+class Situation(NamedTuple):
     """Where one is, and how the chair stands to the way.
 
     Attributes
