@@ -1,7 +1,6 @@
 """The seam every assistant fits: a demonstrator, the learned model, or your own."""
 
-from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,9 +8,8 @@ from numpy.typing import NDArray
 from lad.command import Command
 
 
-@dataclass(frozen=True, slots=True)
-class Assistance:
-    """What an assistant answers in one step.
+class Assistance(NamedTuple):
+    """What an assistant says in one step.
 
     Attributes
     ----------

@@ -7,6 +7,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from lad.compiled import compiled
 from lad.errors import HyperparameterError, InvalidInputError
 
 LARGEST_INPUT = 1e150
@@ -58,7 +59,7 @@ class Window:
     def check(self, x: object) -> NDArray[np.float64]:
         """Return x as floats, shape (d,), or raise what ``observe`` would raise."""
         vector = as_vector(x, self.lengthscales.size, "input", InvalidInputError)
-        if not (np.abs(vector) <= self._largest).all():  # NaN is no smaller either
+        if not _allowed(vector, self._largest):
             _refuse(vector, self._largest)
         return vector
 
@@ -75,9 +76,7 @@ class Window:
         InvalidInputError
             When x has another shape or type, or a value that is not finite; nothing has changed.
         """
-        vector = self.check(x)
-        self.scaled[1:] = self.scaled[:-1]
-        self.scaled[0] = vector / self.lengthscales
+        _push(self.scaled, self.check(x), self.lengthscales)
         self.time += 1
         self.seen += 1
         self.version += 1
@@ -94,6 +93,23 @@ class Window:
     def inputs(self) -> NDArray[np.float64]:
         """Shape (tau, d): the window in the inputs' own units, newest first."""
         return np.asarray(self.scaled * self.lengthscales)
+
+
+@compiled
+def _allowed(vector: Any, largest: Any) -> Any:
+    within = 0
+    for i in range(len(vector)):
+        within += abs(vector[i]) <= largest[i]  # NaN is no smaller either
+    return within == len(vector)
+
+
+@compiled
+def _push(scaled: Any, vector: Any, lengthscales: Any) -> None:
+    for lag in range(len(scaled) - 1, 0, -1):
+        for i in range(len(vector)):
+            scaled[lag, i] = scaled[lag - 1, i]
+    for i in range(len(vector)):
+        scaled[0, i] = vector[i] / lengthscales[i]
 
 
 def as_vector(value: object, size: int, name: str, error: type[ValueError]) -> NDArray[np.float64]:
@@ -118,7 +134,7 @@ def as_vector(value: object, size: int, name: str, error: type[ValueError]) -> N
         raise error(f"{name}: given {_described(value, array)}; allowed are {size} real numbers")
     if array.shape != (size,):
         raise error(f"{name}: given shape {array.shape}; allowed is ({size},)")
-    return array.astype(np.float64, copy=False)
+    return np.ascontiguousarray(array, dtype=np.float64)
 
 
 def _described(value: object, array: NDArray[Any]) -> str:

@@ -80,6 +80,7 @@ class AttentiveDemonstrator:
         self._options = options
         self._rng = rng
         self._corners = tuple(s for s in self._line.sections if s.kind == "sharp_right")
+        self._legs = {corner.start: self._line.point(corner.end + LEG) for corner in self._corners}
         self.start_lap()
 
     def start_lap(self) -> None:
@@ -114,8 +115,10 @@ class AttentiveDemonstrator:
         return Assistance(helping=True, command=self._steering.steer(self._sight, self._arc))
 
     def _corner_at(self, arc: float) -> Stretch | None:
-        near = (c for c in self._corners if c.start - EARLIEST <= arc <= c.end + LATEST)
-        return next(near, None)
+        for corner in self._corners:
+            if corner.start - EARLIEST <= arc <= corner.end + LATEST:
+                return corner
+        return None
 
     def _wants_to_help(self, corner: Stretch, sight: Sight, stick: float) -> bool:
         to_turn, off = self._through(corner, sight)
@@ -129,7 +132,7 @@ class AttentiveDemonstrator:
 
     def _through(self, corner: Stretch, sight: Sight) -> tuple[float, float]:
         """Return how far right the chair must turn to point along the next leg, and towards it."""
-        leg = self._line.point(corner.end + LEG)
+        leg = self._legs[corner.start]
         towards = math.atan2(leg.y - sight.pose.y, leg.x - sight.pose.x)
         return (
             math.remainder(sight.pose.heading - leg.heading, math.tau),

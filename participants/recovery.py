@@ -3,10 +3,8 @@
 import math
 from collections.abc import Callable, Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
 from lad.command import Command
+from participants.planning.field import DistanceField
 from participants.planning.surroundings import map_field
 from participants.planning.sweep import sweep
 from participants.sight import Sight
@@ -116,7 +114,7 @@ class Recovery:
 
 
 def _most_promising(
-    field: NDArray[np.float64],
+    field: DistanceField,
     error: float,
     obeys: Callable[[float], float],
     tried: Sequence[Command],

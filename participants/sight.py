@@ -1,7 +1,6 @@
 """What a driver or demonstrator in the room perceives in one step."""
 
-from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +9,7 @@ from lad.command import Command
 from protocols.pose import Pose
 
 
-@dataclass(frozen=True, slots=True)
-class Sight:
+class Sight(NamedTuple):
     """The room as a person in it, or a navigation stack with a map, perceives it.
 
     Attributes

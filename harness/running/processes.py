@@ -5,6 +5,7 @@ number is given to another, and the others do not notice. When the runner is kil
 the pipes close, and each worker ends with the task it is in.
 """
 
+import gc
 import multiprocessing
 import os
 import signal
@@ -145,6 +146,7 @@ class _Worker:
 def _serve(pipe: Connection) -> None:
     """Answer until the runner has gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # only the runner handles Ctrl-C
+    gc.freeze()  # what is imported stays: no collection has to look through it
     with suppress(EOFError, OSError):
         while True:
             task, number = pipe.recv()

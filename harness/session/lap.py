@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,8 +76,7 @@ class Rules:
     hold_s: float = HOLD_S
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(NamedTuple):
     """Everything that was seen, answered and done in one control step.
 
     Attributes
@@ -163,6 +162,7 @@ class Lap:
         self._rules = rules
         self._gates = gates
         self._journal = journal
+        self._bearings, self._laser_offset = world.bearings, world.laser_offset
         self._seen = world.observe()
         self._intent = STILL
         self._intent_t = self._seen.t
@@ -206,8 +206,7 @@ class Lap:
             onlooker.look(sight)
         demonstrator = None if parts.demonstrator is None else parts.demonstrator.assist(x)
         model = parts.model.assist(x)
-        by_role = {"none": NO_ASSISTANCE, "demonstrator": demonstrator, "model": model}
-        assistance = by_role[rules.assistant] or NO_ASSISTANCE
+        assistance = self._in_charge(demonstrator, model)
         arbitrated = rules.arbitration(limited, assistance)
         executed = self._world.safeguard(arbitrated) if rules.safeguarded else arbitrated
         if self._journal is not None:
@@ -221,6 +220,14 @@ class Lap:
             age, timing,
         )  # fmt: skip
 
+    def _in_charge(self, demonstrator: Assistance | None, model: Assistance) -> Assistance:
+        """Return the answer that counts in this lap."""
+        if self._rules.assistant == "model":
+            return model
+        if self._rules.assistant == "demonstrator" and demonstrator is not None:
+            return demonstrator
+        return NO_ASSISTANCE
+
     def _command_in_force(self, answer: Command | None, t: float) -> tuple[Command, float]:
         """Return the command in force and its age: without new commands the chair soon stops."""
         if answer is not None:
@@ -232,14 +239,14 @@ class Lap:
 
     def _sight(self, seen: Observation) -> Sight:
         return Sight(
-            t=seen.t,
-            pose=seen.pose,
-            velocity=seen.velocity,
-            ranges=seen.ranges,
-            bearings=self._world.bearings,
-            laser=self._world.laser_offset,
-            gates_passed=self._gates.passed,
-            helped=self._helped,
+            seen.t,
+            seen.pose,
+            seen.velocity,
+            seen.ranges,
+            self._bearings,
+            self._laser_offset,
+            self._gates.passed,
+            self._helped,
         )
 
     def _broken_off(self, reason: EndReason, note: str | None) -> Ending:

@@ -142,8 +142,9 @@ class BulletWorld:
             if controller.approach(target, dt):
                 chair.drive(*controller.velocity)
             chair.advance()
-            touched = (watch and chair.touching()) or touched
-        if touched:  # the wheels' real speed, or the chair would leap when it comes free
+            if watch:
+                touched = chair.touching() or touched
+        if touched:  # what the wheels have left, or the chair would leap off when it comes free
             pose = chair.pose()
             controller.reset(chair.velocity(pose.heading))
         return touched
@@ -160,7 +161,7 @@ class BulletWorld:
             velocity=self._chair.velocity(pose.heading),
             ranges=ranges,
             segments=segments,
-            clearance_m=max(0.0, clearance(self._table, pose)),
+            clearance_m=max(0.0, clearance(self._table, tuple(pose))),
             contact=contact,
         )
 

@@ -117,8 +117,9 @@ class Laser:
             from right to left.
         """
         ranges = self._caster.cast(sensor)
-        _measure(ranges, rng.standard_normal(len(ranges)))
-        return ranges, _nearest(ranges, self._shares)
+        segments = np.empty(N_SEGMENTS)
+        _measure(ranges, rng.standard_normal(len(ranges)), self._shares, segments)
+        return ranges, segments
 
 
 def _segment_rays(bearings: NDArray[np.float64]) -> NDArray[np.int64]:
@@ -134,16 +135,11 @@ def _segment_rays(bearings: NDArray[np.float64]) -> NDArray[np.int64]:
 
 
 @compiled
-def _measure(ranges: Any, normal: Any) -> None:
+def _measure(ranges: Any, normal: Any, shares: Any, segments: Any) -> None:
+    """Turn distances into readings, and fill in each segment's nearest one."""
     for i in range(len(ranges)):
         sigma = max(ACCURACY, RELATIVE_ACCURACY * ranges[i]) / SIGMAS
         reading = RESOLUTION * round((ranges[i] + sigma * normal[i]) / RESOLUTION)
         ranges[i] = min(max(reading, NEAREST), LASER_RANGE)
-
-
-@compiled
-def _nearest(ranges: Any, shares: Any) -> Any:
-    segments = np.empty(len(shares))
     for i in range(len(shares)):
         segments[i] = ranges[shares[i, 0] : shares[i, 1]].min()
-    return segments

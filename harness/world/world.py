@@ -1,7 +1,6 @@
 """The seam every world fits: observe, safeguard and move, one control step at a time."""
 
-from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,9 +9,8 @@ from lad.command import Command
 from protocols.pose import Pose
 
 
-@dataclass(frozen=True, slots=True)
-class Observation:
-    """What the instruments measure at the start of a control step.
+class Observation(NamedTuple):
+    """What the instruments say at the start of a control step.
 
     Attributes
     ----------

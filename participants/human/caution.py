@@ -2,10 +2,8 @@
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
 from lad.command import Command
+from participants.planning.field import DistanceField
 from participants.planning.sweep import sweep
 
 HORIZON = 3.0
@@ -24,7 +22,7 @@ CREEP = 0.08
 """The least speed past an obstacle, m/s."""
 
 
-def slowed(field: NDArray[np.float64], intention: Command, clearance: float) -> Command:
+def slowed(field: DistanceField, intention: Command, clearance: float) -> Command:
     """Return the intention at a speed that suits what the scan shows.
 
     Parameters

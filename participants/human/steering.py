@@ -1,7 +1,7 @@
 """What a person wants the chair to do now: direction, speed, and how hard to turn."""
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from lad.command import Command
 from participants.human.corners import Corner
@@ -29,9 +29,8 @@ FIRM = 0.9
 """A person who wants this share of full deflection or more pushes the stick to its end."""
 
 
-@dataclass(frozen=True, slots=True)
-class Situation:
-    """Where the chair is, and in which direction, relative to the way.
+class Situation(NamedTuple):
+    """Where one is, and how the chair stands to the way.
 
     Attributes
     ----------

@@ -52,19 +52,15 @@ class Stick:
         """
         keep = math.exp(-passed / NOISE_TIME)
         spread = math.sqrt(1.0 - keep * keep)
-        fresh = self._rng.normal(size=2)
-        self._errors = (
-            keep * self._errors[0] + spread * float(fresh[0]),
-            keep * self._errors[1] + spread * float(fresh[1]),
-        )
+        draw = self._rng.standard_normal
+        error_v = keep * self._errors[0] + spread * draw()
+        error_w = keep * self._errors[1] + spread * draw()
         follow = 1.0 - math.exp(-passed / self._lag)
-        wanted = (intention.v / MAX_SPEED, intention.w / MAX_TURN_RATE)
-        self._pushed = (
-            self._push(self._pushed[0], wanted[0], self._errors[0], follow),
-            self._push(self._pushed[1], wanted[1], self._errors[1], follow),
-        )
-        v, w = (_stick(pushed) for pushed in self._pushed)
-        return Command(v * MAX_SPEED, w * MAX_TURN_RATE)
+        v, w = self._pushed
+        v = self._push(v, intention.v / MAX_SPEED, error_v, follow)
+        w = self._push(w, intention.w / MAX_TURN_RATE, error_w, follow)
+        self._errors, self._pushed = (error_v, error_w), (v, w)
+        return Command(_stick(v) * MAX_SPEED, _stick(w) * MAX_TURN_RATE)
 
     def _push(self, now: float, wanted: float, error: float, follow: float) -> float:
         reached = min(max(wanted, -OVERSHOOT), OVERSHOOT) * (1.0 + self._noise * error)

@@ -1,13 +1,15 @@
 """A smooth way through a course by arc length: where to go, and how sharply it bends."""
 
 import math
+from bisect import bisect_left, bisect_right
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from lad.compiled import compiled
 from participants.planning.search import cheapest_path
 from protocols.course.centreline import Centreline
 from protocols.course.gates import GateCounter
@@ -52,6 +54,11 @@ class Route:
         self.length = float(self.arcs[-1])
         tangents = np.gradient(points, axis=0)
         self.headings = np.unwrap(np.arctan2(tangents[:, 1], tangents[:, 0]))
+        # Looked up one at a time, plain numbers are ten times as fast as arrays.
+        self._arcs: list[float] = self.arcs.tolist()
+        self._headings: list[float] = self.headings.tolist()
+        self._xs: list[float] = points[:, 0].tolist()
+        self._ys: list[float] = points[:, 1].tolist()
 
     def locate(self, pose: Pose, gates_passed: int, near: float | None = None) -> Progress:
         """Return the nearest point of the route between the last gate passed and the next one.
@@ -76,16 +83,31 @@ class Route:
 
     def point(self, arc: float) -> Pose:
         """Return the point at an arc length, clamped to the ends, and the direction there."""
+        i = bisect_right(self._arcs, arc) - 1
         return Pose(
-            float(np.interp(arc, self.arcs, self.points[:, 0])),
-            float(np.interp(arc, self.arcs, self.points[:, 1])),
-            float(np.interp(arc, self.arcs, self.headings)),
+            self._between(self._xs, i, arc),
+            self._between(self._ys, i, arc),
+            self._between(self._headings, i, arc),
         )
 
     def turn(self, start: float, end: float) -> float:
         """Return by how much the direction changes between two arc lengths, rad, left positive."""
-        a, b = np.interp([start, end], self.arcs, self.headings)
-        return float(b - a)
+        return self._heading(end) - self._heading(start)
+
+    def _heading(self, arc: float) -> float:
+        return self._between(self._headings, bisect_right(self._arcs, arc) - 1, arc)
+
+    def _between(self, values: list[float], i: int, arc: float) -> float:
+        """Interpolate as ``numpy.interp`` does, to the last bit; ``i`` is the point before."""
+        if i < 0:
+            return values[0]
+        if i >= len(values) - 1:
+            return values[-1]
+        before = self._arcs[i]
+        if before == arc:
+            return values[i]
+        slope = (values[i + 1] - values[i]) / (self._arcs[i + 1] - before)
+        return slope * (arc - before) + values[i]
 
     def _leg(self, gates_passed: int) -> tuple[float, float]:
         ends = (0.0, *self.gate_arcs)
@@ -94,16 +116,28 @@ class Route:
         return low, high
 
     def _nearest(self, pose: Pose, low: float, high: float) -> Progress | None:
-        first, last = np.searchsorted(self.arcs, [low - SPACING, high + SPACING])
+        first = bisect_left(self._arcs, low - SPACING)
+        last = bisect_left(self._arcs, high + SPACING)
         if first >= last:
             return None
-        dx, dy = (np.array(pose[:2]) - self.points[first:last]).T
-        i = int(np.argmin(dx * dx + dy * dy))
-        heading = self.headings[first + i]
-        along = dx[i] * math.cos(heading) + dy[i] * math.sin(heading)
-        across = dy[i] * math.cos(heading) - dx[i] * math.sin(heading)
-        arc = float(np.clip(self.arcs[first + i] + np.clip(along, -SPACING, SPACING), low, high))
-        return Progress(arc, math.copysign(math.hypot(dx[i], dy[i]), across))
+        i = _closest(self.points, first, last, pose.x, pose.y)
+        dx, dy = pose.x - self._xs[i], pose.y - self._ys[i]
+        cos, sin = math.cos(self._headings[i]), math.sin(self._headings[i])
+        along, across = dx * cos + dy * sin, dy * cos - dx * sin
+        arc = self._arcs[i] + min(max(along, -SPACING), SPACING)
+        return Progress(min(max(arc, low), high), math.copysign(math.hypot(dx, dy), across))
+
+
+@compiled
+def _closest(points: Any, first: int, last: int, x: float, y: float) -> Any:
+    """Return which of the points from ``first`` to before ``last`` is the nearest."""
+    nearest, least = first, np.inf
+    for i in range(first, last):
+        dx, dy = x - points[i, 0], y - points[i, 1]
+        square = dx * dx + dy * dy
+        if square < least:
+            nearest, least = i, square
+    return nearest
 
 
 @lru_cache(maxsize=16)

@@ -7,7 +7,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from participants.planning.field import ASIDE, BEHIND, CELL, COLUMNS, FAR, ROWS
+from participants.planning.field import (
+    ASIDE,
+    BEHIND,
+    CELL,
+    COLUMNS,
+    FAR,
+    ROWS,
+    DistanceField,
+    known_field,
+)
 from protocols.course.occupancy import Occupancy, occupancy
 from protocols.course.schema import Course
 from protocols.pose import Pose
@@ -19,7 +28,7 @@ def known_raster(course: Course) -> Occupancy:
     return occupancy(course)
 
 
-def map_field(raster: Occupancy, pose: Pose) -> NDArray[np.float64]:
+def map_field(raster: Occupancy, pose: Pose) -> DistanceField:
     """Return the distance field around a pose from the course's raster.
 
     Parameters
@@ -31,7 +40,7 @@ def map_field(raster: Occupancy, pose: Pose) -> NDArray[np.float64]:
 
     Returns
     -------
-    NDArray
+    DistanceField
         As of ``participants.planning.field.scan_field``, but of everything around.
     """
     ahead = CELL * np.arange(COLUMNS) - BEHIND
@@ -42,4 +51,4 @@ def map_field(raster: Occupancy, pose: Pose) -> NDArray[np.float64]:
     found = ndimage.map_coordinates(raster.distance, [rows, columns], order=1, mode="nearest")
     # Both rasters give the centre's distance for the whole cell.
     distance: NDArray[np.float64] = np.clip(found - CELL / math.sqrt(2.0), 0.0, FAR)
-    return distance
+    return known_field(distance)

@@ -1,13 +1,22 @@
+# ruff: noqa: PLR0917  # compiled code takes arrays apart from objects
 """How far the chair can go along an arc before its outline could touch something."""
 
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lad.command import Command
 from lad.compiled import compiled
-from participants.planning.field import ASIDE, BEHIND, CELL, COLUMNS, FAR, ROWS
+from participants.planning.field import (
+    ASIDE,
+    BEHIND,
+    CELL,
+    COLUMNS,
+    FAR,
+    ROWS,
+    DistanceField,
+    distance_at,
+)
 from participants.planning.footprint import DISC_RADIUS, SWING, disc_centres
 
 CENTRES = disc_centres()
@@ -34,7 +43,7 @@ class Sweep(NamedTuple):
     room: float
 
 
-def sweep(field: NDArray[np.float64], command: Command, horizon: float) -> Sweep:
+def sweep(field: DistanceField, command: Command, horizon: float) -> Sweep:
     """Follow a command through a distance field.
 
     Conservative advancement: where the nearest obstacle is d away, no point of the chair gets
@@ -50,7 +59,7 @@ def sweep(field: NDArray[np.float64], command: Command, horizon: float) -> Sweep
     horizon
         How far to look, s.
     """
-    return Sweep(*advance(field, command.v, command.w, horizon))
+    return Sweep(*advance(*field, command.v, command.w, horizon))
 
 
 @compiled
@@ -63,13 +72,17 @@ def room_at(field: Any, x: float, y: float, turn: float) -> Any:
         py = y + sine * CENTRES[i, 0] + cosine * CENTRES[i, 1]
         column, row = (px + BEHIND) / CELL + 0.5, (py + ASIDE) / CELL + 0.5
         if 0 <= row < ROWS and 0 <= column < COLUMNS:
-            least = min(least, field[int(row), int(column)])
+            least = min(least, distance_at(field, int(row), int(column)))
     return least - DISC_RADIUS
 
 
 @compiled
-def advance(field: Any, v: float, w: float, horizon: float) -> Any:
-    """Return (seconds until a possible touch, least room on the way)."""
+def advance(known: Any, rows: Any, columns: Any, v: float, w: float, horizon: float) -> Any:
+    """Return (seconds until a possible touch, least room on the way).
+
+    The field comes as its three arrays: compiled code takes a tuple of them much more slowly.
+    """
+    field = (known, rows, columns)
     speed = abs(v) + abs(w) * SWING
     least = room_at(field, 0.0, 0.0, 0.0)
     # A chair that is already too close may still move as long as it gets no closer.

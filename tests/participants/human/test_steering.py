@@ -67,7 +67,7 @@ def test_a_limited_person_pushes_the_stick_to_its_end(route):
     traits = replace(TRAITS, limit_push=1.0)
     now = Situation(arc=1.0, speed=0.2, error=-0.3, corner=None)
     assert intend(traits, SKILLED, limited(), route, now).w < -0.5
-    other = replace(now, error=0.3)
+    other = now._replace(error=0.3)
     free = intend(traits, SKILLED, TurnResponse(1.0), route, other)
     assert intend(traits, SKILLED, limited(), route, other).w == free.w
 
