@@ -5,7 +5,7 @@ from typing import Annotated, Any, Self
 
 from pydantic import Field, model_validator
 
-from protocols.files.file_model import FileModel, Name, shipped_or_factory
+from protocols.files.file_model import FileModel, Name, part_name
 from protocols.shipped_parts import DEMONSTRATORS, DRIVERS, IMPAIRMENTS, RESPONDENTS
 
 Options = dict[str, Any]
@@ -50,21 +50,21 @@ class Demographics(FileModel):
 class DriverChoice(FileModel):
     """Who sits in the wheelchair."""
 
-    use: shipped_or_factory(*DRIVERS) = "human"  # type: ignore[valid-type]
+    use: part_name(*DRIVERS) = "human"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
 
 
 class DemonstratorChoice(FileModel):
     """Who watches and takes over, or as a shadow says what they would do."""
 
-    use: shipped_or_factory(*DEMONSTRATORS) = "attentive"  # type: ignore[valid-type]
+    use: part_name(*DEMONSTRATORS) = "attentive"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
 
 
 class RespondentChoice(FileModel):
     """Who answers the questions."""
 
-    use: shipped_or_factory(*RESPONDENTS) = "ordinal"  # type: ignore[valid-type]
+    use: part_name(*RESPONDENTS) = "ordinal"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
 
 
@@ -79,7 +79,7 @@ class ImpairmentChoice(FileModel):
         From none to severe; what that means is the impairment's.
     """
 
-    use: shipped_or_factory(*IMPAIRMENTS)  # type: ignore[valid-type]
+    use: part_name(*IMPAIRMENTS)  # type: ignore[valid-type]
     share: Share = 1.0
     severity: Annotated[float, Field(ge=0, le=1)] = 0.5
     options: Options = Field(default_factory=dict)

@@ -1,5 +1,6 @@
 """Load a study and everything it refers to."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from protocols.course.drivable import undrivable
@@ -9,6 +10,7 @@ from protocols.files.fault import Fault
 from protocols.files.validation import validate
 from protocols.instrument import Instrument
 from protocols.pages import Text
+from protocols.parts import parts_beside
 from protocols.questions import laps_with_items, question_faults
 from protocols.resolved import ResolvedStudy
 from protocols.shipped import Source, locate, locate_text, shipped_names
@@ -98,7 +100,9 @@ def resolve_study(
     faults = tuple(question_faults(protocol, instruments))
     if faults:
         raise document.error(faults)
-    return _resolved(protocol, chosen, instruments, participants, source.folder)
+    beside = parts_beside(protocol, source.folder, document)
+    study = _resolved(protocol, chosen, instruments, participants, source.folder)
+    return replace(study, beside=beside)
 
 
 def check_file(name_or_path: str) -> ResolvedStudy | Course | Instrument:

@@ -20,6 +20,7 @@ def validate(
     """
     from protocols.course.schema import Course
     from protocols.load import check_file
+    from protocols.parts import installed_parts
     from protocols.resolved import ResolvedStudy
 
     checked = check_file(file)
@@ -29,6 +30,10 @@ def validate(
             f"{file}: a protocol: {protocol.cohort.participants} participants, "
             f"{len(protocol.laps)} laps on {checked.course.name}"
         )
+        for part in checked.beside:
+            say(f"{part.place}: '{part.use}' was not tried: validate does not run {part.module}")
+        for use, package in installed_parts(protocol, checked.beside).items():
+            say(f"{file}: '{use}' of {package} was not tried: validate runs only what ships")
     else:
         kind = "course" if isinstance(checked, Course) else "questionnaire"
         say(f"{file}: a {kind}: {checked.title}")

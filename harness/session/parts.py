@@ -100,12 +100,12 @@ def _driver(run: StudyRun, number: int, person: Person) -> Driver:
         options=choice.options,
         folder=run.study.folder,
     )
-    driver, impairment = make_driver(choice.use, setup), person.impairment
+    driver, impairment = make_driver(choice.use, setup, run.study.code), person.impairment
     if impairment is None:
         return driver
     rng = generator(run.seed, number, "impairment")
     around = ImpairmentSetup(driver, impairment.severity, rng, impairment.options)
-    return make_impaired(impairment.use, around)
+    return make_impaired(impairment.use, around, run.study.code)
 
 
 def _demonstrator(run: StudyRun, number: int) -> Demonstrator | None:
@@ -113,13 +113,14 @@ def _demonstrator(run: StudyRun, number: int) -> Demonstrator | None:
     if choice is None:
         return None
     rng = generator(run.seed, number, "demonstrator")
-    return make_demonstrator(choice.use, DemonstratorSetup(run.study.course, rng, choice.options))
+    setup = DemonstratorSetup(run.study.course, rng, choice.options)
+    return make_demonstrator(choice.use, setup, run.study.code)
 
 
 def _model(run: StudyRun, number: int) -> Assistant:
     folder = str(run.study.folder or Path())
     words = {"participant": participant_id(number), "folder": folder}
-    return make_model(run.study.protocol.model, words)
+    return make_model(run.study.protocol.model, words, run.study.code)
 
 
 def _respondent(run: StudyRun, number: int, person: Person) -> Respondent | None:
@@ -134,7 +135,7 @@ def _respondent(run: StudyRun, number: int, person: Person) -> Respondent | None
         style=person.style,
         options=choice.options,
     )
-    return make_respondent(choice.use, setup)
+    return make_respondent(choice.use, setup, study.code)
 
 
 def question(instrument: Instrument, item: Item) -> Question:

@@ -28,6 +28,7 @@ laps:
 DRIVER = """\
 import time
 from pathlib import Path
+import joystick_of_ours
 from lad.command import Command
 
 class Patient:
@@ -118,10 +119,13 @@ def test_a_machine_that_lacks_something_leaves(scheduler, add_worker, start, wai
     """Its sessions are run elsewhere, and the log says which machine it was and what it lacks."""
     out, go, folder = tmp_path / "study", tmp_path / "go", tmp_path / "drivers"
     folder.mkdir()
-    (folder / "odd_driver.py").write_text(DRIVER)
+    (folder / "joystick_of_ours.py").write_text("")
+    (tmp_path / "odd_driver.py").write_text(DRIVER)
     (tmp_path / "odd.yaml").write_text(ODD.format(go=go))
     add_worker(1, folder)
-    run = start("run", "odd.yaml", "--no-report", "--out", out, "--scheduler", scheduler[1])
+    run = start(
+        "run", "odd.yaml", "--trust", "--no-report", "--out", out, "--scheduler", scheduler[1]
+    )
     wait_until((out / "study.yaml").exists)
     doomed = add_worker(2)
     go.touch()
@@ -131,7 +135,7 @@ def test_a_machine_that_lacks_something_leaves(scheduler, add_worker, start, wai
     doomed.wait(60)
     for death in csv.DictReader((out / "logs" / "deaths.csv").read_text().splitlines()):
         assert death["reason"].startswith(f"on {socket.gethostname()}: ")
-        assert "No module named 'odd_driver'" in death["reason"]
+        assert "No module named 'joystick_of_ours'" in death["reason"]
 
 
 def test_a_run_without_a_worker_says_so_and_waits(
