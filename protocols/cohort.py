@@ -118,7 +118,7 @@ class Cohort(FileModel):
     demonstrator: DemonstratorChoice | None = DemonstratorChoice()
     respondent: RespondentChoice | None = RespondentChoice()
     demographics: Demographics = Demographics()
-    impairments: tuple[ImpairmentChoice, ...] = ()
+    impairments: Annotated[tuple[ImpairmentChoice, ...], Field(max_length=100)] = ()
     traits: dict[Name, TraitDistribution] = Field(default_factory=dict)
 
     @model_validator(mode="after")

@@ -9,7 +9,7 @@ from protocols.cohort import Cohort, Options
 from protocols.condition import Condition
 from protocols.consistency import check_consistency
 from protocols.declared import Comparison, Exclusion
-from protocols.files.file_model import FileModel, Name, part_name
+from protocols.files.file_model import FileModel, FormatVersion, Name, part_name
 from protocols.laps import PlannedLap
 from protocols.pages import Consent, Particular, Text
 from protocols.shipped_parts import LAD, MODELS
@@ -83,23 +83,23 @@ class StudyProtocol(FileModel):
         Shown after everything else; null for none.
     """
 
-    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    schema_version: Annotated[Literal[1], FormatVersion, Field(alias="schema")] = 1
     name: Name
-    title: Annotated[str, Field(min_length=1)]
+    title: Annotated[str, Field(min_length=1, max_length=2000)]
     description: str = ""
     course: Annotated[str, Field(min_length=1)] = "lab-office"
     cohort: Cohort = Cohort()
-    conditions: Annotated[dict[Name, Condition], Field(min_length=1)]
+    conditions: Annotated[dict[Name, Condition], Field(min_length=1, max_length=200)]
     laps: Annotated[tuple[PlannedLap, ...], Field(min_length=1, max_length=200)]
     model: ModelChoice = ModelChoice()
     exclusion: Exclusion = Exclusion()
-    analyses: tuple[Comparison, ...] = ()
+    analyses: Annotated[tuple[Comparison, ...], Field(max_length=500)] = ()
     control_period_s: Annotated[float, Field(ge=0.02, le=0.5)] = 0.1
     laser: LaserSettings = LaserSettings()
     start_noise: StartNoise = StartNoise()
     hold_s: Annotated[float, Field(gt=0, le=5)] = 0.3
     consent: Consent | None = None
-    demographics: tuple[Particular, ...] = ()
+    demographics: Annotated[tuple[Particular, ...], Field(max_length=100)] = ()
     debrief: Text | None = None
 
     @model_validator(mode="after")

@@ -3,7 +3,7 @@
 import re
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9 _.-]*$", max_length=80)]
 """A short name: letters, digits, space, ``_``, ``.``, ``-``; it begins with a letter or digit."""
@@ -12,6 +12,17 @@ MAX_PART_NAME = 200
 """Characters that the name of a part may have."""
 
 _PART = r"[A-Za-z_][A-Za-z0-9_.-]*(:[A-Za-z_][A-Za-z0-9_]*)?"
+
+
+def _no_truth_value(value: Any) -> Any:
+    """Refuse true and 1.0, which Python holds to be equal to 1."""
+    if type(value) is int or not isinstance(value, int | float):
+        return value
+    raise ValueError(f"must be a whole number; given {str(value).lower()}")
+
+
+FormatVersion = BeforeValidator(_no_truth_value)
+"""Of a field that says the version of a file's format: a whole number and nothing else."""
 
 
 class FileModel(BaseModel):
