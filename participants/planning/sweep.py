@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from lad.command import Command
 from lad.compiled import compiled
 from participants.planning.field import ASIDE, BEHIND, CELL, COLUMNS, FAR, ROWS
-from participants.planning.footprint import DISC_RADIUS, SWING, disc_centres
+from protocols.course.footprint import DISC_RADIUS, SWING, disc_centres
 
 CENTRES = disc_centres()
 
