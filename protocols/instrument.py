@@ -68,7 +68,7 @@ class Instrument(FileModel):
 
     schema_version: Annotated[Literal[1], FormatVersion, Field(alias="schema")] = 1
     name: Name
-    title: Annotated[str, Field(min_length=1, max_length=2000)]
+    title: Annotated[str, Field(min_length=1, max_length=5000)]
     source: str = ""
     anchors: Annotated[tuple[str, ...], Field(min_length=2, max_length=11)]
     agreement_from: Annotated[int, Field(ge=2)]

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from protocols.course.drivable import undrivable
 from protocols.course.schema import Course
+from protocols.files.document import spoken
 from protocols.files.errors import InputError
 from protocols.files.fault import Fault
 from protocols.files.validation import validate
@@ -102,7 +103,12 @@ def resolve_study(
         raise document.error(faults)
     beside = parts_beside(protocol, source.folder, document)
     study = _resolved(protocol, chosen, instruments, participants, source.folder)
-    return replace(study, beside=beside)
+    places = {
+        spoken(where): f"{document.source}:{line}"
+        for where, line in document.lines.items()
+        if where
+    }
+    return replace(study, beside=beside, places=places)
 
 
 def check_file(name_or_path: str) -> ResolvedStudy | Course | Instrument:

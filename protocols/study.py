@@ -85,7 +85,7 @@ class StudyProtocol(FileModel):
 
     schema_version: Annotated[Literal[1], FormatVersion, Field(alias="schema")] = 1
     name: Name
-    title: Annotated[str, Field(min_length=1, max_length=2000)]
+    title: Annotated[str, Field(min_length=1, max_length=5000)]
     description: str = ""
     course: Annotated[str, Field(min_length=1)] = "lab-office"
     cohort: Cohort = Cohort()

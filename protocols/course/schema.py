@@ -72,7 +72,7 @@ class Course(FileModel):
 
     schema_version: Annotated[Literal[1], FormatVersion, Field(alias="schema")] = 1
     name: Name
-    title: Annotated[str, Field(max_length=2000)]
+    title: Annotated[str, Field(max_length=5000)]
     description: str = ""
     walls: Annotated[tuple[Wall, ...], Field(min_length=1, max_length=1000)]
     furniture: Annotated[tuple[Furniture, ...], Field(max_length=2000)] = ()

@@ -109,7 +109,7 @@ def test_a_figure_whose_shortest_way_takes_a_later_gate_first_is_refused():
     gates = [
         ("A", (3, 6), (3, 4)),
         ("B", (8, 4), (8, 6)),
-        ("C", (5.5, 7.6), (5.5, 4.1)),
+        ("C", (5.5, 7.6), (5.5, 2.6)),
     ]
     line = [(1.5, 5), (3.3, 5), (4, 8), (9.5, 8), (9.5, 5), (7.5, 5), (6.5, 2), (4.5, 2), (4.5, 5)]
     fault = undrivable(_hall(gates, [*line, (5.5, 5)]))
