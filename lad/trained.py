@@ -6,8 +6,8 @@ from lad.lad_assistant import LADAssistant
 def load(path: str) -> LADAssistant:
     """Return the shipped model as it was saved.
 
-    A protocol names it by its dotted path, the file by participant:
-    ``{use: "lad.trained:load", options: {path: "{folder}/sessions/{participant}/model.npz"}}``.
+    A protocol names it ``taught``, and the file by participant:
+    ``{use: taught, options: {path: "{folder}/sessions/{participant}/model.npz"}}``.
 
     Parameters
     ----------

@@ -11,12 +11,12 @@ from participants.dwa import DynamicWindow, choose
 from participants.localisation import Localisation
 from participants.options import Options, read_options
 from participants.planning.field import scan_field
-from participants.planning.route import Route, plan_route
 from participants.planning.surroundings import known_raster
 from participants.recovery import Recovery
 from participants.setup import DriverSetup
 from participants.sight import Sight
 from protocols.course.occupancy import Occupancy
+from protocols.course.route import Route, plan_route
 from protocols.wheelchair import LASER_RANGE, MAX_SPEED, MAX_TURN_RATE
 
 PATIENCE = 1.0

@@ -6,6 +6,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from protocols.files.errors import InputError
+from protocols.files.wording import shown
 
 
 class Options(BaseModel):
@@ -49,4 +50,7 @@ def _fault(who: str, kind: type[Options], item: Any) -> str:
     if item["type"] == "extra_forbidden" and len(item["loc"]) == 1:
         allowed = ", ".join(kind.model_fields) or "it takes no options"
         return f"{who}: option {where!r} does not exist; allowed: {allowed}"
-    return f"{who}: option {where!r}: {item['msg']} (given {item['input']!r})"
+    said = item["msg"].removeprefix("Value error, ")
+    if not where:
+        return f"{who}: {said}"
+    return f"{who}: option {where!r}: {said} (given {shown(item['input'])})"

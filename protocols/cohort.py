@@ -5,7 +5,7 @@ from typing import Annotated, Any, Self
 
 from pydantic import Field, model_validator
 
-from protocols.files.file_model import FileModel, Name, shipped_or_factory
+from protocols.files.file_model import FileModel, Name, part_name
 from protocols.shipped_parts import DEMONSTRATORS, DRIVERS, IMPAIRMENTS, RESPONDENTS
 
 Options = dict[str, Any]
@@ -50,21 +50,21 @@ class Demographics(FileModel):
 class DriverChoice(FileModel):
     """Who drives the wheelchair."""
 
-    use: shipped_or_factory(*DRIVERS) = "human"  # type: ignore[valid-type]
+    use: part_name(*DRIVERS) = "human"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
 
 
 class DemonstratorChoice(FileModel):
     """Who watches and takes over, or as a shadow gives the command that does not count."""
 
-    use: shipped_or_factory(*DEMONSTRATORS) = "attentive"  # type: ignore[valid-type]
+    use: part_name(*DEMONSTRATORS) = "attentive"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
 
 
 class RespondentChoice(FileModel):
     """Who answers the questions."""
 
-    use: shipped_or_factory(*RESPONDENTS) = "ordinal"  # type: ignore[valid-type]
+    use: part_name(*RESPONDENTS) = "ordinal"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
 
 
@@ -79,7 +79,7 @@ class ImpairmentChoice(FileModel):
         From none to severe; the impairment defines its meaning.
     """
 
-    use: shipped_or_factory(*IMPAIRMENTS)  # type: ignore[valid-type]
+    use: part_name(*IMPAIRMENTS)  # type: ignore[valid-type]
     share: Share = 1.0
     severity: Annotated[float, Field(ge=0, le=1)] = 0.5
     options: Options = Field(default_factory=dict)
@@ -118,7 +118,7 @@ class Cohort(FileModel):
     demonstrator: DemonstratorChoice | None = DemonstratorChoice()
     respondent: RespondentChoice | None = RespondentChoice()
     demographics: Demographics = Demographics()
-    impairments: tuple[ImpairmentChoice, ...] = ()
+    impairments: Annotated[tuple[ImpairmentChoice, ...], Field(max_length=100)] = ()
     traits: dict[Name, TraitDistribution] = Field(default_factory=dict)
 
     @model_validator(mode="after")

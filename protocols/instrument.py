@@ -6,7 +6,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from protocols.files.fault import Fault, InconsistentError
-from protocols.files.file_model import FileModel, Name
+from protocols.files.file_model import FileModel, FormatVersion, Name
 
 ItemId = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]+$", max_length=40)]
 
@@ -35,7 +35,7 @@ class Item(FileModel):
     """
 
     id: ItemId
-    text: Annotated[str, Field(min_length=1)]
+    text: Annotated[str, Field(min_length=1, max_length=5000)]
     subscale: Name = "total"
     reverse: bool = False
     asked: Literal["every lap", "assisted laps"] = "every lap"
@@ -66,13 +66,13 @@ class Instrument(FileModel):
         Where the wording comes from.
     """
 
-    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    schema_version: Annotated[Literal[1], FormatVersion, Field(alias="schema")] = 1
     name: Name
-    title: Annotated[str, Field(min_length=1)]
+    title: Annotated[str, Field(min_length=1, max_length=5000)]
     source: str = ""
     anchors: Annotated[tuple[str, ...], Field(min_length=2, max_length=11)]
     agreement_from: Annotated[int, Field(ge=2)]
-    items: Annotated[tuple[Item, ...], Field(min_length=1)]
+    items: Annotated[tuple[Item, ...], Field(min_length=1, max_length=500)]
 
     @model_validator(mode="after")
     def _parts_agree(self) -> Self:

@@ -1,14 +1,17 @@
 """Load a study and everything it refers to."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from protocols.course.drivable import undrivable
 from protocols.course.schema import Course
+from protocols.files.document import spoken
 from protocols.files.errors import InputError
 from protocols.files.fault import Fault
 from protocols.files.validation import validate
 from protocols.instrument import Instrument
 from protocols.pages import Text
+from protocols.parts import parts_beside
 from protocols.questions import laps_with_items, question_faults
 from protocols.resolved import ResolvedStudy
 from protocols.shipped import Source, locate, locate_text, shipped_names
@@ -98,7 +101,14 @@ def resolve_study(
     faults = tuple(question_faults(protocol, instruments))
     if faults:
         raise document.error(faults)
-    return _resolved(protocol, chosen, instruments, participants, source.folder)
+    beside = parts_beside(protocol, source.folder, document)
+    study = _resolved(protocol, chosen, instruments, participants, source.folder)
+    places = {
+        spoken(where): f"{document.source}:{line}"
+        for where, line in document.lines.items()
+        if where
+    }
+    return replace(study, beside=beside, places=places)
 
 
 def check_file(name_or_path: str) -> ResolvedStudy | Course | Instrument:

@@ -34,7 +34,7 @@ class Source:
     folder: Path | None
 
     def text(self) -> bytes:
-        """Return the content; ``InputError`` when it cannot be read."""
+        """Return the content, or its beginning where it is too large; ``InputError`` when none."""
         try:
             with self.file.open("rb") as opened:
                 return opened.read(MAX_BYTES + 1)
@@ -43,7 +43,9 @@ class Source:
 
     def document(self) -> Document:
         """Return the content as YAML; ``InputError`` when it is none."""
-        return parse(self.text(), self.label)
+        content = self.text()
+        size = self.file.stat().st_size if isinstance(self.file, Path) else len(content)
+        return parse(content, self.label, max(size, len(content)))
 
 
 def shipped_names(kind: Kind) -> tuple[str, ...]:
@@ -100,6 +102,8 @@ def locate_text(name: str, folder: Path | None) -> str:
     """
     path = Path(name) if folder is None else folder / name
     try:
+        if path.exists() and not path.is_file():
+            raise InputError(f"{name}: is not a file; allowed: a text file")
         with path.open("rb") as stream:
             content = stream.read(MAX_BYTES + 1)
         text = content.decode("utf-8-sig")

@@ -9,27 +9,27 @@ from protocols.cohort import Cohort, Options
 from protocols.condition import Condition
 from protocols.consistency import check_consistency
 from protocols.declared import Comparison, Exclusion
-from protocols.files.file_model import FileModel, Name, shipped_or_factory
+from protocols.files.file_model import FileModel, FormatVersion, Name, part_name
 from protocols.laps import PlannedLap
 from protocols.pages import Consent, Particular, Text
-from protocols.shipped_parts import MODELS
+from protocols.shipped_parts import LAD, MODELS
 from protocols.start_noise import StartNoise
 
 
 class ModelChoice(FileModel):
     """The assistant that learns; Table I of the paper is the default.
 
-    ``parameters`` are those of the shipped model, ``options`` those of somebody else's.
+    ``parameters`` are those of ``lad``, ``options`` those of any other model.
     """
 
-    use: shipped_or_factory(*MODELS) = "lad"  # type: ignore[valid-type]
+    use: part_name(*MODELS) = LAD  # type: ignore[valid-type]
     parameters: LADParameters = LADParameters()
     options: Options = Field(default_factory=dict)
 
     @model_validator(mode="after")
     def _options_are_for_others(self) -> Self:
-        if self.use in MODELS and self.options:
-            raise ValueError("options are for a model of your own; lad takes parameters")
+        if self.use == LAD and self.options:
+            raise ValueError("options are for other models; lad takes parameters")
         return self
 
 
@@ -83,28 +83,28 @@ class StudyProtocol(FileModel):
         Shown after everything else; null for none.
     """
 
-    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    schema_version: Annotated[Literal[1], FormatVersion, Field(alias="schema")] = 1
     name: Name
-    title: Annotated[str, Field(min_length=1)]
+    title: Annotated[str, Field(min_length=1, max_length=5000)]
     description: str = ""
     course: Annotated[str, Field(min_length=1)] = "lab-office"
     cohort: Cohort = Cohort()
-    conditions: Annotated[dict[Name, Condition], Field(min_length=1)]
+    conditions: Annotated[dict[Name, Condition], Field(min_length=1, max_length=200)]
     laps: Annotated[tuple[PlannedLap, ...], Field(min_length=1, max_length=200)]
     model: ModelChoice = ModelChoice()
     exclusion: Exclusion = Exclusion()
-    analyses: tuple[Comparison, ...] = ()
+    analyses: Annotated[tuple[Comparison, ...], Field(max_length=500)] = ()
     control_period_s: Annotated[float, Field(ge=0.02, le=0.5)] = 0.1
     laser: LaserSettings = LaserSettings()
     start_noise: StartNoise = StartNoise()
     hold_s: Annotated[float, Field(gt=0, le=5)] = 0.3
     consent: Consent | None = None
-    demographics: tuple[Particular, ...] = ()
+    demographics: Annotated[tuple[Particular, ...], Field(max_length=100)] = ()
     debrief: Text | None = None
 
     @model_validator(mode="after")
     def _parts_agree(self) -> Self:
-        taught = self.model.use not in MODELS  # what a model of one's own knows is not ours to say
+        taught = self.model.use != LAD  # what a model of one's own knows is not ours to say
         check_consistency(
             self.conditions, self.laps, self.analyses, cohort=self.cohort, taught=taught
         )

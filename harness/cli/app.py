@@ -2,7 +2,6 @@
 
 import sys
 from importlib.metadata import version
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -78,7 +77,6 @@ _INTERRUPTED = 130
 
 def main() -> None:
     """Run the command line and exit with its code."""
-    sys.path.append(str(Path.cwd()))  # last, so that a folder there cannot hide what is installed
     try:
         code = app(prog_name="lad-study", standalone_mode=False)
     except InputError as fault:

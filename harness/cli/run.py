@@ -37,19 +37,31 @@ def run(
     retry_failed: Annotated[
         bool, typer.Option("--retry-failed", help="Run sessions again that failed before.")
     ] = False,
+    trust: Annotated[
+        bool, typer.Option("--trust", help="Allow the code beside the protocol file, as it is now.")
+    ] = False,
     no_report: Annotated[bool, typer.Option("--no-report", help="Only the record.")] = False,
 ) -> int:
     """Run a study with synthetic participants, and report it.
 
     Without arguments: the four-lap study, twelve participants, seed 0. A run that was stopped
-    goes on where it was when the same command is given again.
+    goes on where it was when the same command is given again. A protocol's own parts are code:
+    they run with --trust only, and after that until their file changes.
 
     Example: lad-study run four-lap --participants 24 --seed 3 --out studies/pilot
     """
     check_least("--seed", seed, 0)
     check_least("--jobs", jobs, 1)
     folder, outcome = _run(
-        protocol, participants, seed, out, jobs, scheduler, course, retry_failed=retry_failed
+        protocol,
+        participants,
+        seed,
+        out,
+        jobs,
+        scheduler,
+        course,
+        retry_failed=retry_failed,
+        trust=trust,
     )
     if outcome.found:
         say(f"{outcome.found} of {outcome.planned} sessions were there already.")
@@ -72,17 +84,20 @@ def _run(
     course: str | None,
     *,
     retry_failed: bool,
+    trust: bool,
 ) -> "tuple[Path, Outcome]":
     from harness.running.open_workers import warm_up_workers
 
     if scheduler is None:
         warm_up_workers()  # first: workers start while this process reads the protocol
     from harness.cli.progress import counted_sessions
+    from harness.cli.trust import trusted_study
     from harness.running.runner import run_study
     from harness.session.study_run import StudyRun
     from protocols.load import resolve_study
 
     study = resolve_study(protocol, course=course, participants=participants)
+    study = trusted_study(study, asked=trust)
     folder = out or Path("studies") / f"{study.protocol.name}-seed{seed}"
     with counted_sessions() as tell:
         outcome = run_study(

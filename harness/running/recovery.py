@@ -1,5 +1,6 @@
 """Rebuild sessions from journals: a killed process loses nothing that a person did."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from protocols.record.journal import JOURNALS, read_journal
 from protocols.record.rows import participant_number
 from protocols.record.session import encode
 from protocols.record.store import build_tables, locked, whole_sessions, write_session
+from protocols.resolved import ResolvedStudy
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,11 +36,20 @@ class Recovery:
     faults: tuple[str, ...]
 
 
-def recover_sessions(folder: Path) -> Recovery:
+def recover_sessions(
+    folder: Path, with_code: Callable[[ResolvedStudy], ResolvedStudy] | None = None
+) -> Recovery:
     """Make each session that has a journal, and is missing or damaged, from its journal.
 
     A damaged session is moved to ``set-aside``, never deleted; a journal stays where it is. An
     unfinished journal gives the session up to its end, its last lap as interrupted.
+
+    Parameters
+    ----------
+    folder
+        The study directory.
+    with_code
+        Gives the recorded study its own parts' code, where it has any and it may be run.
 
     Raises
     ------
@@ -46,7 +57,8 @@ def recover_sessions(folder: Path) -> Recovery:
         When the folder is no study directory, or another process writes into it.
     """
     header = read_header(folder)
-    run = StudyRun(header.study, header.seed or 0, header.digest)
+    study = header.study if with_code is None else with_code(header.study)
+    run = StudyRun(study, header.seed or 0, header.digest)
     recovered, faults = [], []
     with locked(folder):
         whole = set(whole_sessions(folder, header.digest))

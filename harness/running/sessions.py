@@ -35,7 +35,7 @@ def try_parts(workers: Workers, run: "StudyRun") -> None:
     for _, answer in workers.run(partial(_part_fault, run), [1]):
         if isinstance(answer, InputError):
             raise answer
-        if isinstance(answer, Died) and not answer.retried:
+        if isinstance(answer, Died) and (answer.unfit or not answer.retried):
             raise ChildProcessError(f"no session can be run: {answer.reason}")
 
 

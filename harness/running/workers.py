@@ -23,10 +23,13 @@ class Died:
         What is known about it, as the end of a sentence.
     retried
         Whether the number is tried again.
+    unfit
+        Whether no task at all could be run in that process.
     """
 
     reason: str
     retried: bool = False
+    unfit: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,11 @@
 """What takes part in one session: the person, and every part that the protocol names."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
+
+import numpy as np
 
 from harness.session.lap import LapParts
 from harness.session.model import make_model
@@ -15,10 +19,14 @@ from participants.driver import Driver
 from participants.pages import PageReader, SimulatedReader
 from participants.registry import make_demonstrator, make_driver, make_impaired, make_respondent
 from participants.setup import DemonstratorSetup, DriverSetup, ImpairmentSetup, RespondentSetup
+from participants.sight import Sight
 from participants.survey import Question, Respondent
+from protocols.cohort import ImpairmentChoice
+from protocols.files.errors import InputError
 from protocols.instrument import Instrument, Item
 from protocols.order import laps_of
 from protocols.record.rows import participant_id
+from protocols.shipped_parts import Role, shipped_factory
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,18 +51,66 @@ class SessionParts:
     reader: PageReader
 
 
-def make_every_part(run: StudyRun) -> None:
+def make_every_part(run: StudyRun, *, only_shipped: bool = False) -> None:
     """Make each part of the first session once, so that a mistake shows before anything runs.
+
+    Parameters
+    ----------
+    run
+        The study.
+    only_shipped
+        Whether to leave out the parts whose code is not ours.
 
     Raises
     ------
     InputError
-        When a driver, demonstrator, model or respondent cannot be made.
+        When a driver, demonstrator, model or respondent cannot be made; with its place in the
+        protocol file.
     """
-    person = draw_person(run, 1)
-    make_parts(run, 1, person)
-    for impairment in run.study.protocol.cohort.impairments:
-        make_parts(run, 1, replace(person, impairment=impairment))
+    cohort, protocol = run.study.protocol.cohort, run.study.protocol
+    with _placed(run, "cohort.traits"):
+        person = draw_person(run, 1)
+
+    def wanted(role: Role, use: str) -> bool:
+        return not only_shipped or shipped_factory(role, use) is not None
+
+    driver: Driver = _Nobody()
+    if wanted("driver", cohort.driver.use):
+        with _placed(run, "cohort.driver.options"):
+            driver = _driver_alone(run, 1, person)
+    for i, impairment in enumerate(cohort.impairments):
+        if wanted("impairment", impairment.use):
+            with _placed(run, f"cohort.impairments[{i}]"):
+                _impaired(run, 1, impairment, driver)
+    if cohort.demonstrator is not None and wanted("demonstrator", cohort.demonstrator.use):
+        with _placed(run, "cohort.demonstrator.options"):
+            _demonstrator(run, 1)
+    if wanted("model", protocol.model.use):
+        with _placed(run, "model"):
+            _model(run, 1)
+    if cohort.respondent is not None and wanted("respondent", cohort.respondent.use):
+        with _placed(run, "cohort.respondent"):
+            _respondent(run, 1, person)
+
+
+class _Nobody:
+    """Stands where a driver is that is not made."""
+
+    def start_lap(self, lap: int, rng: np.random.Generator) -> None:
+        """Do nothing."""
+
+    def act(self, sight: Sight) -> None:
+        """Give no command."""
+
+
+@contextmanager
+def _placed(run: StudyRun, where: str) -> Iterator[None]:
+    """Say of a fault where in the protocol file its cause is."""
+    try:
+        yield
+    except InputError as error:
+        place = run.study.at(where)
+        raise InputError(*(f"{place}{fault}" for fault in error.faults)) from error
 
 
 def draw_person(run: StudyRun, number: int) -> Person:
@@ -92,6 +148,11 @@ def make_parts(run: StudyRun, number: int, person: Person | None = None) -> Sess
 
 def _driver(run: StudyRun, number: int, person: Person) -> Driver:
     """Return the driver, with the person's impairment around it if the person has one."""
+    driver, impairment = _driver_alone(run, number, person), person.impairment
+    return driver if impairment is None else _impaired(run, number, impairment, driver)
+
+
+def _driver_alone(run: StudyRun, number: int, person: Person) -> Driver:
     choice = run.study.protocol.cohort.driver
     setup = DriverSetup(
         course=run.study.course,
@@ -100,12 +161,13 @@ def _driver(run: StudyRun, number: int, person: Person) -> Driver:
         options=choice.options,
         folder=run.study.folder,
     )
-    driver, impairment = make_driver(choice.use, setup), person.impairment
-    if impairment is None:
-        return driver
+    return make_driver(choice.use, setup, run.study.code)
+
+
+def _impaired(run: StudyRun, number: int, impairment: ImpairmentChoice, driver: Driver) -> Driver:
     rng = generator(run.seed, number, "impairment")
     around = ImpairmentSetup(driver, impairment.severity, rng, impairment.options)
-    return make_impaired(impairment.use, around)
+    return make_impaired(impairment.use, around, run.study.code)
 
 
 def _demonstrator(run: StudyRun, number: int) -> Demonstrator | None:
@@ -113,13 +175,14 @@ def _demonstrator(run: StudyRun, number: int) -> Demonstrator | None:
     if choice is None:
         return None
     rng = generator(run.seed, number, "demonstrator")
-    return make_demonstrator(choice.use, DemonstratorSetup(run.study.course, rng, choice.options))
+    setup = DemonstratorSetup(run.study.course, rng, choice.options)
+    return make_demonstrator(choice.use, setup, run.study.code)
 
 
 def _model(run: StudyRun, number: int) -> Assistant:
     folder = str(run.study.folder or Path())
     words = {"participant": participant_id(number), "folder": folder}
-    return make_model(run.study.protocol.model, words)
+    return make_model(run.study.protocol.model, words, run.study.code)
 
 
 def _respondent(run: StudyRun, number: int, person: Person) -> Respondent | None:
@@ -134,7 +197,7 @@ def _respondent(run: StudyRun, number: int, person: Person) -> Respondent | None
         style=person.style,
         options=choice.options,
     )
-    return make_respondent(choice.use, setup)
+    return make_respondent(choice.use, setup, study.code)
 
 
 def question(instrument: Instrument, item: Item) -> Question:

@@ -8,9 +8,9 @@ import numpy as np
 
 from lad.compiled import compiled
 from participants.human.corners import sharp_corners
-from participants.planning.route import Route, plan_route
 from participants.planning.surroundings import known_raster
 from protocols.course.occupancy import Occupancy
+from protocols.course.route import Route, plan_route
 from protocols.course.schema import Course
 from protocols.pose import Pose
 from protocols.wheelchair import WIDTH

@@ -8,8 +8,8 @@ from participants.human.corners import Corner
 from participants.human.practice import Skill
 from participants.human.room import KnownRoom
 from participants.human.turn_response import TurnResponse
-from participants.planning.route import Route
 from participants.traits import Traits
+from protocols.course.route import Route
 from protocols.pose import Pose
 from protocols.wheelchair import MAX_TURN_RATE
 

@@ -17,7 +17,7 @@ from participants.planning.field import (
     DistanceField,
     distance_at,
 )
-from participants.planning.footprint import DISC_RADIUS, SWING, disc_centres
+from protocols.course.footprint import DISC_RADIUS, SWING, disc_centres
 
 CENTRES = disc_centres()
 

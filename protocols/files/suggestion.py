@@ -3,6 +3,9 @@
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 
+LONGEST_GUESS = 200
+"""Characters up to which a misspelt word is guessed at."""
+
 
 def allowed(given: str, names: Iterable[str], kinds: Iterable[str] = ()) -> str:
     """Return the end of a message: the allowed names and, where one is near, a guess.
@@ -16,7 +19,7 @@ def allowed(given: str, names: Iterable[str], kinds: Iterable[str] = ()) -> str:
     """
     names = tuple(names)
     listed = f"allowed: {', '.join((*kinds, *names)) or 'nothing'}"
-    near = get_close_matches(given, names, n=1)
+    near = get_close_matches(given, names, n=1) if len(given) <= LONGEST_GUESS else []
     return f"{listed} (did you mean '{near[0]}'?)" if near else listed
 
 

@@ -13,6 +13,9 @@ from protocols.files.wording import worded
 
 Model = TypeVar("Model", bound=BaseModel)
 
+MOST_FAULTS = 200
+"""Faults that are looked at: one is shown, and how many there are besides."""
+
 
 def validate(document: Document, model: type[Model]) -> Model:
     """Return the document's data as a model.
@@ -28,7 +31,8 @@ def validate(document: Document, model: type[Model]) -> Model:
     try:
         return model.model_validate_json(json.dumps(document.data), strict=True)
     except ValidationError as error:
-        items = [item for item in error.errors() if not _misspelt(item, error.errors())]
+        found = error.errors(include_url=False)[:MOST_FAULTS]
+        items = [item for item in found if not _misspelt(item, found)]
         faults = [f for item in items for f in _faults(item, document.data, model)]
         raise document.error(_worth_telling(faults)) from None
 

@@ -11,7 +11,7 @@ from protocols.course.schema import Course
 from protocols.files.document import parse
 from protocols.files.dump import to_yaml
 from protocols.files.errors import InputError
-from protocols.files.file_model import FileModel
+from protocols.files.file_model import FileModel, FormatVersion
 from protocols.files.validation import validate
 from protocols.instrument import Instrument
 from protocols.record.atomic import write_whole
@@ -50,7 +50,7 @@ class StudyHeader(FileModel):
         Of the run that made the directory; every session's manifest has its own.
     """
 
-    schema_version: Annotated[SchemaVersion, Field(alias="schema")] = SCHEMA_VERSION
+    schema_version: Annotated[SchemaVersion, FormatVersion, Field(alias="schema")] = SCHEMA_VERSION
     seed: Annotated[int, Field(ge=0)] | None = None
     origin: Origin = Field(default_factory=_origin_of_version_1)
     digest: str | None = None

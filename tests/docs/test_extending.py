@@ -21,10 +21,8 @@ def workplace(tmp_path, monkeypatch):
         if name := re.match(r"# (\S+)\n", text):
             (tmp_path / name[1]).write_text(text)
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(sys, "path", [*sys.path])
-    yield tmp_path
-    for module in ("gentle", "late", "neighbour"):
-        sys.modules.pop(module, None)
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    return tmp_path
 
 
 def commands():

@@ -7,7 +7,6 @@ from functools import partial
 import pytest
 
 from harness.running import cluster
-from harness.running.cluster import UnfitError
 from harness.running.workers import MAX_DEATHS, Died, Failed
 from protocols.files.errors import InputError
 
@@ -93,7 +92,7 @@ class Client:
         self.most = max(self.most, self.under_way)
         try:
             answer = self.happening[number] if number in self.happening else task(number)
-        except UnfitError as error:
+        except RuntimeError as error:
             answer = error
         return Future(answer, self.ended)
 
@@ -144,7 +143,7 @@ def test_a_worker_that_can_run_nothing_leaves(run):
     assert client.workers == ["tcp://a"]
     assert sorted(n for n, answer in told if answer == n) == list(range(20))
     died = [answer for _, answer in told if isinstance(answer, Died)]
-    assert set(died) == {Died("on node7: no such driver", retried=True)}
+    assert set(died) == {Died("on node7: no such driver", retried=True, unfit=True)}
     assert len(died) <= 2 * cluster.AHEAD
 
 

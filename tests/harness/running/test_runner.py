@@ -29,7 +29,7 @@ class Here:
 @pytest.fixture
 def here(monkeypatch):
     """Have sessions run in this process."""
-    monkeypatch.setattr(runner, "hire", lambda *_: nullcontext(Here()))
+    monkeypatch.setattr(runner, "open_workers", lambda *_: nullcontext(Here()))
 
 
 def record(folder):
@@ -82,7 +82,7 @@ def test_a_finished_study_needs_no_workers(here, make_run, tmp_path, monkeypatch
     run_study(run, out, 1)
     whole = record(out)
     (out / "laps.parquet").unlink()
-    monkeypatch.setattr(runner, "hire", None)
+    monkeypatch.setattr(runner, "open_workers", None)
     assert run_study(run, out, 1) == Outcome(2, 2, 0, ())
     assert record(out) == whole
 
@@ -214,7 +214,7 @@ def test_another_study_is_refused_before_anything_starts(here, make_run, tmp_pat
     out = tmp_path / "s"
     run_study(make_run(participants=1), out, 1)
     whole = record(out)
-    monkeypatch.setattr(runner, "hire", None)
+    monkeypatch.setattr(runner, "open_workers", None)
     with pytest.raises(InputError, match="seed: 0 there, 1 wanted"):
         run_study(make_run(participants=2, seed=1), out, 1)
     with pytest.raises(InputError, match=r"driver\.use: 'some_drivers:straight' there"):

@@ -46,7 +46,7 @@ def test_a_mistake_shows_before_anything_runs():
     rare = [{"use": "tremor", "share": 1e-9, "options": {"frequency": 5}}]
     with pytest.raises(InputError, match="option 'frequency' does not exist"):
         make_every_part(run(impairments=rare))
-    with pytest.raises(InputError, match="cannot import 'nobody'"):
+    with pytest.raises(InputError, match="no impairment is called 'nobody:knows'"):
         make_every_part(run(impairments=[{"use": "nobody:knows", "share": 0.0}]))
 
 

@@ -12,7 +12,7 @@ from participants.human.corners import sharp_corners
 from participants.human.practice import Skill
 from participants.human.steering import Situation, intend
 from participants.human.turn_response import TurnResponse
-from participants.planning.route import Route
+from protocols.course.route import Route
 
 TRAITS = typical_traits()
 SKILLED = Skill(way=1.0, corner=1.0, pause=0.0)

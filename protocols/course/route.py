@@ -3,6 +3,7 @@
 import math
 from bisect import bisect_left, bisect_right
 from functools import lru_cache
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,13 +11,15 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from lad.compiled import compiled
-from participants.planning.search import cheapest_path
 from protocols.course.centreline import Centreline
+from protocols.course.chair_search import chair_path
 from protocols.course.gates import GateCounter
 from protocols.course.occupancy import occupancy
+from protocols.course.route_checks import NARROWEST, route_fault
 from protocols.course.schema import Course
-from protocols.files.errors import InputError
+from protocols.course.search import NoWayError, cheapest_path
 from protocols.pose import Pose
+from protocols.wheelchair import WIDTH
 
 SPACING = 0.05
 """Distance between a route's points, m."""
@@ -144,6 +147,10 @@ def _closest(points: Any, first: int, last: int, x: float, y: float) -> Any:
 def plan_route(course: Course, cell: float = 0.1) -> Route:
     """Plan a way through a course, once for each course.
 
+    It is the shortest way that keeps off obstacles, if the chair can take it: it is wide enough,
+    the chair can turn all along, no gate's post is in the way, and the way never turns back on the
+    spot. Where the chair cannot take it, another one is looked for nearby, then farther off.
+
     Parameters
     ----------
     course
@@ -153,15 +160,48 @@ def plan_route(course: Course, cell: float = 0.1) -> Route:
 
     Raises
     ------
-    InputError
+    NoWayError
         When no path leads the chair through all gates.
     """
-    path = _run_out(_from_start(course, cheapest_path(course, occupancy(course, cell))))
+    raster = occupancy(course, cell)
+    faults: list[NoWayError] = []
+    for half, reach in ((WIDTH / 2, 1.5), (NARROWEST / 2 - cell * math.sqrt(0.5), 3.0)):
+        try:
+            path = cheapest_path(course, raster, half)
+            turning = chair_path(course, raster, path, _first_past(course, path), reach)
+        except NoWayError as error:
+            faults.append(error)
+            continue
+        for way in (path, turning):
+            route = _shaped(course, way)
+            if route is None:
+                faults.append(NoWayError(course.name, 0, "the way found misses one of the gates"))
+                continue
+            fault = route_fault(course, raster, route)
+            if fault is None:
+                return route
+            faults.append(fault)
+    raise faults[0]
+
+
+def _shaped(course: Course, cells: NDArray[np.float64]) -> Route | None:
+    """Return a path over cells as a smooth route; None when that misses a gate."""
+    path = _run_out(_from_start(course, cells))
     for points in (_smooth(path), _resampled(path)):
         arcs = gate_arcs(course, points)
         if len(arcs) == len(course.gates):
             return Route(points, arcs)
-    raise InputError(f"course {course.name!r}: the way found misses one of the gates")
+    return None
+
+
+def _first_past(course: Course, path: NDArray[np.float64]) -> list[int]:
+    """Return the index of the first point past each gate."""
+    counter, first = GateCounter(course), []
+    for i, (a, b) in enumerate(pairwise(path), start=1):
+        before = counter.passed
+        counter.advance((a[0], a[1]), (b[0], b[1]))
+        first += [i] * (counter.passed - before)
+    return first
 
 
 def centreline_route(course: Course) -> Route:
