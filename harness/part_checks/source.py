@@ -5,10 +5,10 @@ from copy import deepcopy
 from importlib import import_module
 from typing import Any
 
+from harness.part_checks.named import named_factory
 from harness.part_checks.plain import plain
 from harness.part_checks.role import Role
 from harness.part_checks.setting import Setting
-from participants.part_loader import load_factory
 
 
 class PartSource:
@@ -46,7 +46,7 @@ class PartSource:
         options: Mapping[str, Any] | None = None,
     ) -> None:
         self.options = dict(options or {})
-        self.factory = load_factory(role, shipped, part) if isinstance(part, str) else part
+        self.factory = named_factory(role, shipped, part) if isinstance(part, str) else part
         self.path = part if isinstance(part, str) else _path_of(part)
         self.label = part if isinstance(part, str) else _name_of(part)
         self._given: list[dict[str, Any]] = []

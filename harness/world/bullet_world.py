@@ -161,7 +161,7 @@ class BulletWorld:
             velocity=self._chair.velocity(pose.heading),
             ranges=ranges,
             segments=segments,
-            clearance_m=max(0.0, clearance(self._table, tuple(pose))),
+            clearance_m=max(0.0, clearance(self._table, (pose.x, pose.y, pose.heading))),
             contact=contact,
         )
 
