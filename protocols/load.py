@@ -1,6 +1,7 @@
 """Load a study and everything it refers to."""
 
 from pathlib import Path
+from typing import Any
 
 from protocols.course.drivable import undrivable
 from protocols.course.schema import Course
@@ -98,7 +99,10 @@ def resolve_study(
     faults = tuple(question_faults(protocol, instruments))
     if faults:
         raise document.error(faults)
-    return _resolved(protocol, chosen, instruments, participants, source.folder)
+    elsewhere = course is not None and chosen.name != protocol.course
+    return _resolved(
+        protocol, chosen, instruments, participants, source.folder, driven_elsewhere=elsewhere
+    )
 
 
 def check_file(name_or_path: str) -> ResolvedStudy | Course | Instrument:
@@ -188,12 +192,16 @@ def _resolved(
     instruments: dict[str, Instrument],
     participants: int | None,
     folder: Path | None,
+    *,
+    driven_elsewhere: bool,
 ) -> ResolvedStudy:
     cohort = protocol.cohort
     if participants is not None:
         cohort = cohort.model_copy(update={"participants": participants})
     laps = laps_with_items(protocol, instruments)
-    changes = {"course": course.name, "laps": laps, "cohort": cohort}
+    changes: dict[str, Any] = {"course": course.name, "laps": laps, "cohort": cohort}
+    if driven_elsewhere:  # published figures belong to the course that the protocol names
+        changes["replicates"] = None
     return ResolvedStudy(
         protocol.model_copy(update=changes), course, tuple(instruments.values()), folder
     )

@@ -42,5 +42,10 @@ def build_page(results: StudyResults) -> Page:
         title=protocol.title,
         subtitle=f"Protocol {protocol.name}, course {study.course.name}{seed}; "
         f"{results.flow.analysed} of {results.flow.planned} participants analysed",
-        sections=tuple(section(results) for section in SECTIONS),
+        sections=tuple(section(results) for section in SECTIONS if _belongs(section, results)),
     )
+
+
+def _belongs(section: Callable[[StudyResults], Section], results: StudyResults) -> bool:
+    """Tell whether a section has a place in this study's report: the paper's figures may not."""
+    return section is not paper_section or results.frames.study.protocol.replicates is not None
