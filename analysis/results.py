@@ -128,12 +128,12 @@ def _model(frames: StudyFrames) -> tuple[TestResult, ...]:
     reference = reference_condition(frames.parts)
     if reference is None:
         return ()
-    return lap_time_model(frames.laps, reference, generator(frames.study, "mixed model"))
+    return lap_time_model(frames.by_place, reference, generator(frames.study, "mixed model"))
 
 
 def _contrasts(frames: StudyFrames) -> tuple[TestResult, ...]:
     reference = reference_condition(frames.parts)
-    return () if reference is None else own_contrasts(frames.laps, reference)
+    return () if reference is None else own_contrasts(frames.by_place, reference)
 
 
 def _overlap(frames: StudyFrames, records: LapRecords) -> TestResult | None:

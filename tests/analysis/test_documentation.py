@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from analysis.measures.registry import MEASURES
-from protocols.record.elsewhere import LAPS, PARTICIPANTS, STEPS, SURVEYS
+from protocols.record.elsewhere.rules import LAPS, PARTICIPANTS, STEPS, SURVEYS
 
 PAGE = (Path(__file__).parents[2] / "docs" / "analysis.md").read_text("utf-8")
 

@@ -38,7 +38,10 @@ def _map(results: StudyResults, helped: Sequence[str]) -> tuple[Block, ...]:
     steps = results.records.steps
     placed = steps[["x_m", "y_m"]].notna().all(axis=1)
     if not placed.any():
-        return (Paragraph("No map: no position was recorded in any step."),)
+        why = "no position was recorded in any step"
+        if results.records.misplaced:
+            why = "the recorded positions are not on the course (see Participants)"
+        return (Paragraph(f"No map: {why}."),)
     gates = ", ".join(gate.name for gate in results.frames.study.course.gates)
     figure_7 = "; the paper's Figure 7" if results.frames.study.protocol.replicates else ""
     known = steps.loc[placed & steps["helped"].notna(), ["condition", "participant"]]

@@ -183,7 +183,9 @@ def test_answers_from_elsewhere_are_not_refused(folder: Path):
 def test_a_table_without_a_row_says_what_to_do(folder: Path, name: str, seed: str, said: str):
     """To run a study that has its sessions, or was not run here, would be wrong advice."""
     header = folder / "study.yaml"
-    header.write_text(re.sub("(?m)^seed: .*$", f"seed: {seed}", header.read_text()))
+    origin = "simulated" if seed == "0" else "elsewhere"
+    lines = f"seed: {seed}\norigin: {origin}"
+    header.write_text(re.sub("(?m)^seed: .*\norigin: .*$", lines, header.read_text()))
     path = folder / f"{name}.parquet"
     pq.write_table(pq.read_table(path)[:0], path)
     assert _refused(folder) == f"{path}: {said}"
