@@ -28,6 +28,7 @@ from analysis.tables.reliability import reliability_table
 from analysis.tables.scales import scale_table
 from analysis.tables.sections import section_table
 from analysis.tables.survey import survey_table
+from analysis.unfinished import NobodyFinished, nobody_finished
 from protocols.instrument import Instrument
 from protocols.record.reader import Study
 
@@ -56,6 +57,8 @@ class StudyResults:
         Who took part and who is analysed.
     records
         Measures of every analysed lap, and its pooled steps.
+    unfinished
+        Conditions in which nobody finished a lap.
     declared
         Comparisons the protocol declares.
     lap_times
@@ -77,6 +80,7 @@ class StudyResults:
     frames: StudyFrames
     flow: Flow
     records: LapRecords
+    unfinished: tuple[NobodyFinished, ...]
     declared: tuple[PairedComparison, ...]
     lap_times: tuple[PairedComparison, ...]
     model: tuple[TestResult, ...]
@@ -110,6 +114,7 @@ def analyse(study: Study, progress: Progress | None = None) -> StudyResults:
         frames=frames,
         flow=participants_flow(frames),
         records=records,
+        unfinished=nobody_finished(study),
         declared=declared_comparisons(frames),
         lap_times=lap_times,
         model=model,

@@ -28,6 +28,7 @@ def statistics_json(results: StudyResults) -> str:
             "recording": recording_versions(study),
         },
         "flow": results.flow,
+        "nobody_finished": results.unfinished,
         "laps_without_steps": results.records.without_steps,
         "not_read": (*results.frames.unread, *results.records.damaged),
         "gaps_in_steps": results.records.gaps,

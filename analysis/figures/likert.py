@@ -101,8 +101,8 @@ def _bars(
     if instrument.points % 2:
         left = left - shares[:, middle] / 2
     for i, anchor in enumerate(instrument.anchors):
-        axes.barh(places, shares[:, i], left=left, height=0.86, color=shades[i], label=_anchor(anchor),
-                  edgecolor="white", linewidth=0.5)  # fmt: skip
+        axes.barh(places, shares[:, i], left=left, height=0.86, color=shades[i],
+                  label=_anchor(anchor), edgecolor="white", linewidth=0.5)  # fmt: skip
         left = left + shares[:, i]
 
 

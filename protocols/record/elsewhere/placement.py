@@ -20,6 +20,9 @@ MOST_OUTSIDE = 0.05
 _TOLERANCE = 0.1
 """How far into an obstacle, or out of the course, a position may be, m."""
 
+_ONWARDS = 0.5
+"""How far beyond a lap's last recorded position its end may be, m."""
+
 _LOOKED_AT = 200
 """Steps that are looked at when a frame is searched for."""
 
@@ -94,7 +97,12 @@ class Floor:
         return float(off.mean())
 
     def _passes(self, xy: Points) -> bool:
+        """Tell whether the way passes every gate: a step is where it began, so it goes on a bit."""
         gates = GateCounter(self._course)
+        moves = np.diff(xy, axis=0)
+        moved = moves[np.abs(moves).sum(axis=1) > 0]
+        if len(moved):
+            xy = np.vstack([xy, xy[-1] + _ONWARDS * moved[-1] / np.hypot(*moved[-1])])
         for before, after in zip(xy[:-1].tolist(), xy[1:].tolist(), strict=True):
             gates.advance(tuple(before), tuple(after))
         return gates.finished
