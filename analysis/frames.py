@@ -80,7 +80,7 @@ def study_frames(study: Study) -> StudyFrames:
     all_laps = as_frame(study.laps)
     exclusions = exclusions_of(study, all_laps[~practised(all_laps)])
     everybody = as_frame(study.participants).assign(
-        excluded=exclusions.excluded, exclusion_reason=exclusions.reasons
+        excluded=exclusions.excluded, exclusion_reason=pd.Series(exclusions.reasons, dtype=object)
     )
     kept = everybody[~excluded(everybody) & ~refused(everybody)]
     parts = cast(study.protocol)

@@ -89,7 +89,7 @@ def write_replay(
         )
     title = f"{participant}, lap {lap}: {_condition(study, participant, lap)}"
     if not placement.on_course:
-        title += "\n(its positions are not on the course)"
+        title += "\n(its positions do not fit the course)"
     with literal_text():
         stage = _Stage(study.course, steps, title)
         frames = _drawn(stage, list(shown), progress or (lambda _: None))

@@ -21,8 +21,8 @@ def settle(figure: Figure) -> None:
 def svg(figure: Figure) -> bytes:
     """Return a settled figure as SVG, without a date and with reproducible ids."""
     stream = io.BytesIO()
-    reproducible = {"svg.hashsalt": "lad-study", "svg.fonttype": "path"}
-    with mpl.rc_context(reproducible), literal_text():
+    reproducible = mpl.rc_context({"svg.hashsalt": "lad-study", "svg.fonttype": "path"})
+    with reproducible, literal_text():
         figure.savefig(stream, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
     return stream.getvalue()
 

@@ -16,8 +16,8 @@ def literal_text() -> Iterator[None]:
 
     A character that no font has is drawn as a box; the words stand in the tables, too.
     """
-    plain = {"text.parse_math": False, "text.usetex": False}
-    with mpl.rc_context(plain), warnings.catch_warnings():
+    plain = mpl.rc_context({"text.parse_math": False, "text.usetex": False})
+    with plain, warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph .* missing from (current )?font")
         yield
 
@@ -25,7 +25,7 @@ def literal_text() -> Iterator[None]:
 def make_literal(figure: Figure) -> None:
     """Take away, from every text that a figure has, what would make mathematics of it."""
     for text in figure.findobj(Text):
-        text.set_parse_math(False)  # type: ignore[attr-defined]  # found by its class
+        text.set_parse_math(False)
 
 
 def wrapped(text: str, width: int, lines: int | None = None) -> str:

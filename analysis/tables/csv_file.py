@@ -14,6 +14,8 @@ def csv_file(frame: pd.DataFrame) -> bytes:
     for place, dtype in enumerate(written.dtypes):
         if not pd.api.types.is_numeric_dtype(dtype):
             cells = written.iloc[:, place]
-            written.isetitem(place, cells.astype(object).map(harmless, na_action="ignore"))
+            written.isetitem(
+                place, cells.astype(object).map(harmless, na_action="ignore").to_numpy()
+            )
     written.columns = pd.Index([harmless(name) for name in frame.columns])
     return written.to_csv(index=False, lineterminator="\n").encode()

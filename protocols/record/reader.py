@@ -28,7 +28,7 @@ from protocols.record.elsewhere.joined import (
     unequal_times,
     with_practice,
 )
-from protocols.record.elsewhere.placement import Floor, Placement
+from protocols.record.elsewhere.placement import INCOMPLETE, Floor, Placement
 from protocols.record.elsewhere.rules import LAPS, PARTICIPANTS, STEPS, SURVEYS, TableRules
 from protocols.record.header import StudyHeader, read_header
 from protocols.record.logs import failures
@@ -265,7 +265,8 @@ class Study:
         xy = np.column_stack([_floats(table, "x_m"), _floats(table, "y_m")])
         placement = self._floor.placement(xy, finished=finished)
         said = tuple(r.removeprefix(f"{steps_file(lap - self._shift)}: ") for r in remarks)
-        return LapSteps(table, (*said, *clock.remarks), placement)
+        incomplete = (INCOMPLETE,) if placement.on_course and not placement.whole else ()
+        return LapSteps(table, (*said, *clock.remarks, *incomplete), placement)
 
     def _recorded_steps(
         self, participant: str, lap: int, columns: Sequence[str] | None

@@ -40,7 +40,7 @@ def _map(results: StudyResults, helped: Sequence[str]) -> tuple[Block, ...]:
     if not placed.any():
         why = "no position was recorded in any step"
         if results.records.misplaced:
-            why = "the recorded positions are not on the course (see Participants)"
+            why = "the recorded positions do not fit the course (see Participants)"
         return (Paragraph(f"No map: {why}."),)
     gates = ", ".join(gate.name for gate in results.frames.study.course.gates)
     figure_7 = "; the paper's Figure 7" if results.frames.study.protocol.replicates else ""

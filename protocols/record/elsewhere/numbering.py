@@ -88,8 +88,8 @@ def practice(laps: pa.Table, plan: Sequence[PlannedLap], where: str) -> Practice
     for lap in sorted(everyone, key=lambda lap: lap.number):
         by_person[lap.participant, lap.condition].append(lap)
     planned: dict[str, list[bool]] = defaultdict(list)
-    for lap in plan:
-        planned[lap.condition].append(lap.practice)
+    for one in plan:
+        planned[one.condition].append(one.practice)
     found, how = list(said), Counter[str]()
     first = first_number(laps, plan)
     for (_, condition), driven in by_person.items():

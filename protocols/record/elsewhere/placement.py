@@ -46,6 +46,8 @@ class Placement(NamedTuple):
     ----------
     on_course
         Whether they are positions on the course, as far as can be seen.
+    whole
+        Whether a finished lap passes every gate in order, as it must.
     outside
         Share of the known ones outside it or in an obstacle, 0 to 1.
     likely
@@ -58,6 +60,14 @@ class Placement(NamedTuple):
     outside: float = 0.0
     likely: str = ""
     metres: bool = True
+    whole: bool = True
+
+
+INCOMPLETE = (
+    "the positions do not pass the gates in their order, although the lap was finished: they are a "
+    "part of it, or in another frame"
+)
+"""What is said of a lap whose positions are on the floor, but not all the way."""
 
 
 class Floor:
@@ -85,12 +95,13 @@ class Floor:
         if not len(known):
             return Placement(on_course=True)
         outside = self._outside(known)
-        if outside <= MOST_OUTSIDE and (not finished or self._passes(known)):
+        whole = not finished or self._passes(known)
+        if outside <= MOST_OUTSIDE and whole:
             return Placement(on_course=True, outside=outside)
         likely, metres = self._likely(known, finished=finished)
-        if outside <= MOST_OUTSIDE and not likely:
-            likely = "the lap does not pass the gates in order: a part of it, or another frame"
-        return Placement(False, outside, likely, metres)
+        if outside <= MOST_OUTSIDE and not likely:  # on the floor, and no other frame fits better
+            return Placement(True, outside, whole=False)
+        return Placement(False, outside, likely, metres, whole)
 
     def _outside(self, xy: Points) -> float:
         off = ~shapely.contains_xy(self._inside, xy) | shapely.contains_xy(self._solid, xy)
@@ -138,11 +149,13 @@ def said_of(misplaced: Sequence[Placement]) -> Iterator[str]:
     for placement in misplaced:
         by_guess.setdefault(re.sub(r"\(.*?\) m", "", placement.likely), []).append(placement)
     for alike in by_guess.values():
-        n, share = len(alike), 100 * sum(p.outside for p in alike) / len(alike)
+        n, share = len(alike), sum(p.outside for p in alike) / len(alike)
         likely = f"; likely: {alike[0].likely}" if alike[0].likely else ""
+        what = f"{100 * share:.0f}% of the steps outside it or in an obstacle"
+        if share <= MOST_OUTSIDE:
+            what = "its gates are not passed in their order"
         laps = "1 lap" if n == 1 else f"{n} laps"
         yield (
-            f"positions of {laps} are not on the course ({share:.0f}% of the "
-            f"steps outside it or in an obstacle{likely}): no map is drawn from them"
+            f"positions of {laps} do not fit the course ({what}{likely}): no map is drawn from them"
             + ("" if alike[0].metres else ", and no distance is computed")
         )
