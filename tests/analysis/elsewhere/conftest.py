@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import numpy as np
 import pyarrow as pa
@@ -13,6 +14,7 @@ import pytest
 from analysis.flow import participants_flow
 from analysis.frames import study_frames
 from analysis.lap_records import read_laps
+from analysis.measures.registry import measure
 from analysis.outcomes import answers_by_participant, by_participant
 from protocols.files.dump import plain_yaml
 from protocols.record.reader import open_study
@@ -60,10 +62,12 @@ HEAD = {
     ],
     "course": COURSE,
 }
-PEOPLE = ("01", "02", "Ren\u00e9", "04")
+PEOPLE = ("01", "Ren\u00e9", "04")
 COLLIDED = "04"
 LAPS = ("assisted", "manual", "assisted")
 RATE = 10
+LOOKED_AT = tuple(map(measure, ("path_length_m", "driving_time_s", "collisions", "contact_time_s")))
+"""Measures that need no column which other programs hardly have: the others cost time here."""
 
 
 @dataclass
@@ -171,7 +175,8 @@ def found_in(folder: Path) -> Found:
     """Return the statistics of a study directory, and its remarks."""
     study = open_study(folder)
     frames = study_frames(study)
-    records = read_laps(frames)
+    with mock.patch("analysis.lap_records.MEASURES", LOOKED_AT):
+        records = read_laps(frames)
     flow = participants_flow(frames)
     numbers: dict[str, float] = {
         "analysed": flow.analysed,
@@ -188,9 +193,9 @@ def found_in(folder: Path) -> Found:
             numbers[f"{name}, mean, {condition}"] = float(wide[condition].mean())
             numbers[f"{name}, n, {condition}"] = int(wide[condition].notna().sum())
         numbers[f"{name}, difference"] = float((wide.iloc[:, 0] - wide.iloc[:, 1]).mean())
-    for name in ("path_length_m", "driving_time_s", "collisions", "contact_time_s"):
-        for condition, values in records.measures.groupby("condition")[name]:
-            numbers[f"{name}, {condition}"] = float(values.mean())
+    for m in LOOKED_AT:
+        for condition, values in records.measures.groupby("condition")[m.name]:
+            numbers[f"{m.name}, {condition}"] = float(values.mean())
     places = frames.by_place.groupby("condition")["lap"].mean()
     numbers["places apart"] = float(places.max() - places.min()) if len(places) else np.nan
     said = (
