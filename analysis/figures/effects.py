@@ -34,6 +34,7 @@ def effect_figure(comparisons: Sequence[PairedComparison]) -> Figure:
             textcoords="offset points", fontsize=9,
         )  # fmt: skip
     axes.axvline(0, color=GREY, linewidth=1)
+    axes.margins(x=0.12)  # room for the numbers above the outermost ones
     axes.set_yticks(range(len(shown)), labels)
     axes.set_ylim(-0.5, len(shown) - 0.3)
     axes.set_xlabel("difference of lap times / s (negative: faster)")

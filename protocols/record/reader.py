@@ -23,9 +23,9 @@ from protocols.record.elsewhere.clock import lap_clock
 from protocols.record.elsewhere.conform import Conformed, conform
 from protocols.record.elsewhere.folders import folders_by_person, lap_shift, strays, unusable_names
 from protocols.record.elsewhere.joined import (
+    doubtful_times,
     joined_answers,
     joined_laps,
-    unequal_times,
     with_practice,
 )
 from protocols.record.elsewhere.placement import INCOMPLETE, Floor, Placement
@@ -122,7 +122,7 @@ class Study:
         """What of the tables was recognised although it is written otherwise, in words."""
         found = [*self._participants.remarks, *self._laps.remarks]
         if self.elsewhere:
-            found += unequal_times(self.laps)
+            found += doubtful_times(self.laps)
         if self._shift:
             found.append("step tables are counted from 0, laps from 1: matched in their order")
         with suppress(InputError):  # said where the answers are read

@@ -11,8 +11,8 @@ UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 """Units in which loggers count, in s; seconds are tried first."""
 
 _NAMES = {"ms": "milliseconds", "us": "microseconds", "ns": "nanoseconds"}
-_FASTEST, _SLOWEST = 0.0005, 2.5
-"""Lengths of a control step that are plausible without a lap time to compare with, s."""
+_FASTEST, _SLOWEST = 0.0005, 10.0
+"""Lengths of a step that are plausible, s."""
 
 _LONGEST = 3 * 3600.0
 _EPOCH = 1e8
@@ -57,7 +57,10 @@ def lap_clock(t: NDArray[np.float64], lasted: Sequence[float]) -> Clock:
         remarks.append(f"t_s is in {_NAMES[unit]}: brought to seconds")
     start, end = ends[0] * scale, ends[1] * scale
     at_start = 0 <= start <= max(5 * step * scale, 0.5)
-    late = start >= 0 and _agree(end + step * scale, lasted)
+    # The lap's own clock, its first steps not recorded: then its end agrees better than its length.
+    late = start >= 0 and _apart(end + step * scale, lasted) < _apart(
+        end - start + step * scale, lasted
+    )
     if at_start or late:
         return Clock(t * scale if scale != 1 else t, tuple(remarks))
     what = "the time of day" if start > _EPOCH else "another moment"
@@ -71,12 +74,17 @@ def _unit(ends: tuple[float, float], step: float, lasted: Sequence[float]) -> st
     first, last = ends
     for unit, scale in UNITS.items():
         whole = [(last - first + step) * scale, (last + step) * scale if first >= 0 else math.nan]
+        if not _FASTEST <= step * scale <= _SLOWEST:
+            continue
         if any(_agree(seconds, lasted) for seconds in whole):
             return unit
-        plausible = _FASTEST <= step * scale <= _SLOWEST and (last - first) * scale <= _LONGEST
-        if not lasted and plausible:
+        if not lasted and (last - first) * scale <= _LONGEST:
             return unit
     return None
+
+
+def _apart(seconds: float, lasted: Sequence[float]) -> float:
+    return min((abs(seconds - wanted) for wanted in lasted), default=math.inf)
 
 
 def _agree(seconds: float, lasted: Sequence[float]) -> bool:

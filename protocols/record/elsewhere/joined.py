@@ -18,6 +18,9 @@ from protocols.record.elsewhere.numbering import (
 from protocols.record.elsewhere.people import with_known_ids
 from protocols.study import StudyProtocol
 
+_LONGEST = 3600.0
+"""The longest time limit that a lap may have, s."""
+
 _THOUSAND = 800.0, 1250.0
 """A ratio of two times in between means that one of them is in milliseconds."""
 
@@ -107,9 +110,11 @@ def _refuse_two_units(laps: pa.Table, path: Path) -> None:
         )
 
 
-def unequal_times(laps: pa.Table) -> Iterator[str]:
-    """Name finished laps of which lap time and duration contradict each other, in words."""
+def doubtful_times(laps: pa.Table) -> Iterator[str]:
+    """Name laps of which times are hardly seconds, or contradict each other, in words."""
     times, durations = (_numbers(laps, name) for name in ("lap_time_s", "duration_s"))
+    if n := int((np.fmax(times, durations) > _LONGEST).sum()):
+        yield f"{n} laps took longer than an hour by lap_time_s or duration_s: are these seconds?"
     done = np.array(laps["completed"].to_pylist(), dtype=bool)
     apart = done & (np.abs(times - durations) > np.maximum(1.0, 0.05 * durations))
     if apart.any():

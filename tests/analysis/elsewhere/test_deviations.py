@@ -313,7 +313,8 @@ DEVIATIONS: dict[str, Deviation] = {
     "off the scale": Deviation(
         _one("surveys", "response", lambda _: 9), "changed", "column response: 9"),
     "half an answer": Deviation(
-        _one("surveys", "response", lambda r: r + 0.5), "changed", "column response is double"),
+        _one("surveys", "response", lambda r: r // 1 + 0.5), "changed",
+        "column response is double"),
     # Rows and columns that are there twice
     "a row again": Deviation(_row_again("laps", lambda row: row), "same", "count once"),
     "a person again": Deviation(_row_again("participants", lambda row: row), "same", "count once"),
