@@ -24,7 +24,7 @@ class Flow:
     refused
         Recorded participants without consent.
     consent_unknown
-        Recorded participants of whom no consent and no refusal was recorded; they are analysed.
+        Analysed participants of whom neither consent nor a refusal was recorded.
     excluded
         Recorded participants with consent whom a rule excludes, by reason.
     analysed
@@ -70,7 +70,7 @@ def participants_flow(frames: StudyFrames) -> Flow:
         failed=failed,
         recorded=recorded,
         refused=int(no.sum()),
-        consent_unknown=int(people["consented"].isna().sum()),
+        consent_unknown=int(frames.participants["consented"].isna().sum()),
         excluded={str(reason): int(n) for reason, n in sorted(reasons.items())},
         analysed=len(frames.participants),
         completed=_completed(frames),

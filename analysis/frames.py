@@ -67,7 +67,9 @@ class StudyFrames:
     @property
     def by_place(self) -> pd.DataFrame:
         """The laps with their places in the session for numbers, as models of time take them."""
-        return self.laps.assign(lap=self.laps["place"])
+        numbers = as_frame(self.study.laps)["lap"].astype(int)
+        taken = places(numbers, len(self.study.protocol.laps))
+        return self.laps.assign(lap=self.laps["lap"].map(dict(zip(numbers, taken, strict=True))))
 
     @property
     def synthetic(self) -> bool:
@@ -89,7 +91,6 @@ def study_frames(study: Study) -> StudyFrames:
     # Whatever stands there: a lap that was not finished has no lap time.
     laps = laps.assign(
         lap_time_s=laps["lap_time_s"].where(laps["completed"].astype(bool)),
-        place=places(all_laps, len(study.protocol.laps)).loc[laps.index],
     )
     answers, unread = _answers(study)
     counted = counted_answers(study, answers, kept["participant"])
@@ -154,22 +155,21 @@ def practised(laps: pd.DataFrame) -> pd.Series:
     return practice
 
 
-def places(laps: pd.DataFrame, planned: int) -> pd.Series:
+def places(numbers: pd.Series, planned: int) -> pd.Series:
     """Return each lap's place in the session: its number, or its rank where numbers leap.
 
     Parameters
     ----------
-    laps
-        Every lap of the study, with its ``lap`` number.
+    numbers
+        Of every lap of the study.
     planned
         How many laps are planned. Numbers beyond are no places: 10, 20, 30 are three laps.
 
     Examples
     --------
-    >>> places(pd.DataFrame({"lap": [10, 20, 10, 30]}), 3).tolist()
+    >>> places(pd.Series([10, 20, 10, 30]), 3).tolist()
     [0, 1, 0, 2]
     """
-    numbers = laps["lap"].astype(int)
     if numbers.max() <= planned:
         return numbers
     return numbers.rank(method="dense").astype(int) - 1

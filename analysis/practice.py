@@ -65,7 +65,7 @@ def practice_table(frames: StudyFrames, model: Sequence[TestResult]) -> pd.DataF
                "ratio_high", "explains_percent", "explains_all_percent"]  # fmt: skip
     rows: list[dict[str, object]] = []
     if order_confounded(frames):
-        places = frames.laps.groupby("condition")["place"].mean()
+        places = frames.by_place.groupby("condition")["lap"].mean()
         for contrast in model:
             condition, _, reference = contrast.name.partition(" against ")
             if math.isfinite(contrast.low):  # without an interval there is none to shift

@@ -21,7 +21,7 @@ from PIL import Image
 
 from analysis.figures.plan import draw_plan
 from analysis.figures.style import BLACK, BLUE, GREEN, GREY, SKY, VERMILLION, tidy
-from analysis.figures.text import literal_text
+from analysis.figures.text import literal_text, wrapped
 from analysis.frames import as_frame
 from analysis.measures.streams import Numbers, Steps, stream
 from lad.inputs import N_SEGMENTS
@@ -87,7 +87,7 @@ def write_replay(
             f"{study_dir}: {participant}, lap {lap}: its steps have no times that go on; a replay "
             "needs them"
         )
-    title = f"{participant}, lap {lap}: {_condition(study, participant, lap)}"
+    title = wrapped(f"{participant}, lap {lap}: {_condition(study, participant, lap)}", 60, lines=4)
     if not placement.on_course:
         title += "\n(its positions do not fit the course)"
     with literal_text():

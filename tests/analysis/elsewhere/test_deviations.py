@@ -240,7 +240,7 @@ DEVIATIONS: dict[str, Deviation] = {
     "no excluded": Deviation(
         _drop("participants", "excluded"), "same", "Who is excluded was not recorded"),
     "no collisions": Deviation(_drop("laps", "collisions"), "same"),
-    "no consent": Deviation(_drop("participants", "consented"), "same", "consent unknown: 3"),
+    "no consent": Deviation(_drop("participants", "consented"), "same", "consent unknown: 2"),
     "no duration": Deviation(_drop("laps", "duration_s"), "same"),
     "no lap time": Deviation(_drop("laps", "lap_time_s"), "refused", "lap_time_s is missing"),
     "no participant": Deviation(_drop("laps", "participant"), "refused", "participant is missing"),
