@@ -22,6 +22,8 @@ class Exclusions:
         By row of the table of participants: whether, and the rule or what was recorded.
     looked
         Whether it is known of every participant: recorded, or every rule could be applied.
+    by_rule
+        Whether the protocol has a rule that could exclude.
     remarks
         What a reader has to know about it, in words.
     """
@@ -29,6 +31,7 @@ class Exclusions:
     excluded: list[bool]
     reasons: list[str | None]
     looked: bool
+    by_rule: bool
     remarks: tuple[str, ...]
 
 
@@ -75,7 +78,7 @@ def exclusions_of(study: Study, laps: pd.DataFrame) -> Exclusions:
             unknown.append(who)
     said = (*_not_recorded(applied, excluded, has_rules=has_rules), *_unknown(unknown))
     looked = not unknown and (has_rules or not applied)
-    return Exclusions(excluded, reasons, looked, (*said, *_against(against)))
+    return Exclusions(excluded, reasons, looked, has_rules, (*said, *_against(against)))
 
 
 def _driven(study: Study, laps: pd.DataFrame) -> list[_Lap]:

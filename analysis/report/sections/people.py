@@ -22,7 +22,8 @@ def people_section(results: StudyResults) -> Section:
     if len(results.flow.withdrawals):
         blocks.append(_why_they_left(results.flow.withdrawals))
     blocks.append(Paragraph(_who(results.frames.participants)))
-    blocks += [Caution(f"{remark}.") for remark in results.frames.exclusions.remarks]
+    about_exclusion = Caution if frames.exclusions.by_rule else Paragraph
+    blocks += [about_exclusion(f"{remark}.") for remark in frames.exclusions.remarks]
     blocks += [Caution(f"Repaired on reading: {remark}.") for remark in frames.study.remarks]
     blocks += [Caution(f"Not analysed: {what}.") for what in results.flow.left_out]
     blocks += [Caution(f"Not read, and treated as missing: {what}.") for what in _unread(results)]
@@ -77,7 +78,7 @@ def _why_they_left(withdrawals: pd.DataFrame) -> Table:
         withdrawals,
         [
             Shown("participant", lambda r: str(r["participant"]), words=True),
-            Shown("lap (from 0)", lambda r: count(r["lap"])),
+            Shown("lap", lambda r: count(r["lap"])),
             Shown("condition", lambda r: str(r["condition"]), words=True),
             Shown("why", lambda r: _words(r["withdrawal"]), words=True),
         ],
