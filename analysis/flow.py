@@ -15,13 +15,16 @@ class Flow:
     Attributes
     ----------
     planned
-        As the protocol says, or as many as were recorded if that is more.
+        As the protocol says, or as many as were recorded if that is more; None where a study from
+        elsewhere does not say how many were planned.
     not_run, failed
         Planned sessions that were not begun, and sessions that broke off with an error.
     recorded
         Sessions with a record.
     refused
         Recorded participants without consent.
+    consent_unknown
+        Analysed participants of whom neither consent nor a refusal was recorded.
     excluded
         Recorded participants with consent who are excluded by a rule, by reason.
     analysed
@@ -38,11 +41,12 @@ class Flow:
         What the tables hold that no analysis can use, in words; empty for our own studies.
     """
 
-    planned: int
+    planned: int | None
     not_run: int
     failed: int
     recorded: int
     refused: int
+    consent_unknown: int
     excluded: dict[str, int]
     analysed: int
     completed: int
@@ -58,13 +62,15 @@ def participants_flow(frames: StudyFrames) -> Flow:
     out = excluded(people) & ~no
     reasons = people.loc[out, "exclusion_reason"].fillna("no reason recorded").value_counts()
     recorded, failed = len(people), len(frames.study.failed())
-    planned = max(frames.study.protocol.cohort.participants, recorded + failed)
+    declared = frames.study.header.planned_participants
+    planned = None if declared is None else max(declared, recorded + failed)
     return Flow(
         planned=planned,
-        not_run=planned - recorded - failed,
+        not_run=0 if planned is None else planned - recorded - failed,
         failed=failed,
         recorded=recorded,
         refused=int(no.sum()),
+        consent_unknown=int(frames.participants["consented"].isna().sum()),
         excluded={str(reason): int(n) for reason, n in sorted(reasons.items())},
         analysed=len(frames.participants),
         completed=_completed(frames),

@@ -8,11 +8,11 @@ import numpy as np
 import pandas as pd
 import pyarrow as pa
 
+from analysis.exclusions import Exclusions, exclusions_of
 from analysis.roles import Part, condition_roles
 from protocols.files.errors import InputError
 from protocols.record.reader import Study, off_scale
 from protocols.record.tables import SURVEY_SCHEMA
-from protocols.study import StudyProtocol
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,10 @@ class StudyFrames:
     parts
         The analysed conditions and their roles.
     everybody
-        One row per participant, whether analysed or not.
+        One row per participant, whether analysed or not; excluded as recorded, else as the
+        protocol's rules have it.
+    exclusions
+        How it is known who is excluded.
     participants
         One row per participant who is not excluded by a rule and did not refuse consent.
     laps
@@ -48,12 +51,25 @@ class StudyFrames:
     laps: pd.DataFrame
     surveys: pd.DataFrame
     answers: pd.DataFrame
+    exclusions: Exclusions
     unread: tuple[str, ...] = ()
 
     @property
     def conditions(self) -> tuple[str, ...]:
         """The analysed conditions, in the order of their first lap."""
         return tuple(part.condition for part in self.parts)
+
+    @property
+    def practised(self) -> bool:
+        """Whether any lap is practice."""
+        return bool(practised(as_frame(self.study.laps)).any())
+
+    @property
+    def by_place(self) -> pd.DataFrame:
+        """The laps with their places in the session for numbers, as models of time take them."""
+        numbers = as_frame(self.study.laps)["lap"].astype(int)
+        taken = places(numbers, len(self.study.protocol.laps))
+        return self.laps.assign(lap=self.laps["lap"].map(dict(zip(numbers, taken, strict=True))))
 
     @property
     def synthetic(self) -> bool:
@@ -63,13 +79,19 @@ class StudyFrames:
 
 def study_frames(study: Study) -> StudyFrames:
     """Return the tables of a study, and those who are analysed."""
-    everybody = as_frame(study.participants)
+    all_laps = as_frame(study.laps)
+    exclusions = exclusions_of(study, all_laps[~practised(all_laps)])
+    everybody = as_frame(study.participants).assign(
+        excluded=exclusions.excluded, exclusion_reason=pd.Series(exclusions.reasons, dtype=object)
+    )
     kept = everybody[~excluded(everybody) & ~refused(everybody)]
     parts = condition_roles(study.protocol)
     laps = counted_laps(study, kept["participant"])
     laps = laps[laps["condition"].isin([part.condition for part in parts])]
     # Whatever stands there: a lap that was not finished has no lap time.
-    laps = laps.assign(lap_time_s=laps["lap_time_s"].where(laps["completed"].astype(bool)))
+    laps = laps.assign(
+        lap_time_s=laps["lap_time_s"].where(laps["completed"].astype(bool)),
+    )
     answers, unread = _answers(study)
     counted = counted_answers(study, answers, kept["participant"])
     return StudyFrames(
@@ -80,6 +102,7 @@ def study_frames(study: Study) -> StudyFrames:
         laps=laps.reset_index(drop=True),
         surveys=last_answers(counted).reset_index(drop=True),
         answers=answers,
+        exclusions=exclusions,
         unread=unread,
     )
 
@@ -87,7 +110,7 @@ def study_frames(study: Study) -> StudyFrames:
 def counted_laps(study: Study, participants: Iterable[str]) -> pd.DataFrame:
     """Return the laps of some people as they were recorded, practice laps left out."""
     laps = as_frame(study.laps)
-    return laps[laps["participant"].isin(list(participants)) & ~practised(laps, study.protocol)]
+    return laps[laps["participant"].isin(list(participants)) & ~practised(laps)]
 
 
 def counted_answers(
@@ -95,7 +118,7 @@ def counted_answers(
 ) -> pd.DataFrame:
     """Return some people's answers, those after practice left out."""
     laps = as_frame(study.laps)
-    practice = laps.loc[practised(laps, study.protocol), ["participant", "lap"]]
+    practice = laps.loc[practised(laps), ["participant", "lap"]]
     driven = pd.MultiIndex.from_frame(answers[["participant", "lap"]])
     after_practice = driven.isin(pd.MultiIndex.from_frame(practice))
     return answers[answers["participant"].isin(list(participants)) & ~after_practice]
@@ -126,13 +149,30 @@ def last_answers(answers: pd.DataFrame) -> pd.DataFrame:
     return answers.loc[in_order.drop_duplicates(asked, keep="last").index].sort_index()
 
 
-def practised(laps: pd.DataFrame, protocol: StudyProtocol) -> pd.Series:
-    """Return which laps are practice: as they say themselves, else as the protocol plans them."""
-    planned = {(i, lap.condition) for i, lap in enumerate(protocol.laps) if lap.practice}
-    placed = zip(laps["lap"], laps["condition"], strict=True)
-    as_planned = pd.Series([place in planned for place in placed], index=laps.index, dtype=bool)
-    practice: pd.Series = laps["practice"].astype("boolean").fillna(as_planned).astype(bool)
+def practised(laps: pd.DataFrame) -> pd.Series:
+    """Return which laps are practice; where they do not say so, the reader has filled it in."""
+    practice: pd.Series = laps["practice"].astype(bool)
     return practice
+
+
+def places(numbers: pd.Series, planned: int) -> pd.Series:
+    """Return each lap's place in the session: its number, or its rank where numbers leap.
+
+    Parameters
+    ----------
+    numbers
+        Of every lap of the study.
+    planned
+        How many laps are planned. Numbers beyond are no places: 10, 20, 30 are three laps.
+
+    Examples
+    --------
+    >>> places(pd.Series([10, 20, 10, 30]), 3).tolist()
+    [0, 1, 0, 2]
+    """
+    if numbers.max() <= planned:
+        return numbers
+    return numbers.rank(method="dense").astype(int) - 1
 
 
 def as_frame(table: pa.Table) -> pd.DataFrame:
@@ -143,8 +183,8 @@ def as_frame(table: pa.Table) -> pd.DataFrame:
 
 
 def excluded(participants: pd.DataFrame) -> pd.Series:
-    """Return whom the protocol's rules exclude."""
-    return participants["excluded"].fillna(value=False).astype(bool)
+    """Return who is excluded, of ``StudyFrames.everybody``."""
+    return participants["excluded"].astype(bool)
 
 
 def refused(participants: pd.DataFrame) -> pd.Series:

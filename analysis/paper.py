@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from analysis.roles import Part
+from analysis.roles import Part, condition_roles
 from protocols.study import StudyProtocol
 
 
@@ -90,7 +90,9 @@ PAPER: dict[str, PaperFigure] = {
 def paper_figure(protocol: StudyProtocol, part: Part, quantity: str) -> PaperFigure | None:
     """Return what the paper prints for a condition's quantity; None when it prints nothing.
 
-    Studies with autonomous drivers are set against section IV, others against section V.
+    Only a study that says it replicates the paper is set against it: those with autonomous drivers
+    against section IV, others against section V. Of conditions that play the same part, the first
+    one is the paper's.
 
     Parameters
     ----------
@@ -109,6 +111,16 @@ def paper_figure(protocol: StudyProtocol, part: Part, quantity: str) -> PaperFig
     >>> paper_figure(study, condition_roles(study)[3], "mean").value
     56.1
     """
+    if protocol.replicates is None or not _first_of_its_part(protocol, part):
+        return None
     whose = "robot" if protocol.cohort.driver.use == "autonomous" else "people"
-    role = f"model-{part.demonstrations}" if part.role == "model" else part.role
-    return PAPER.get(f"{whose}/{role}/{quantity}")
+    return PAPER.get(f"{whose}/{_key(part)}/{quantity}")
+
+
+def _first_of_its_part(protocol: StudyProtocol, part: Part) -> bool:
+    alike = (other for other in condition_roles(protocol) if _key(other) == _key(part))
+    return next(alike, part).condition == part.condition
+
+
+def _key(part: Part) -> str:
+    return f"model-{part.demonstrations}" if part.role == "model" else part.role

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from analysis.frames import StudyFrames
+from analysis.order import part_of
 from analysis.roles import reference_condition
 from analysis.stats.mixed_model import lap_time_design
 from analysis.stats.result import TestResult
@@ -18,7 +19,7 @@ PLAUSIBLE = (0.0, 2.5, 5.0, 10.0, 15.0, 20.0)
 
 def order_confounded(frames: StudyFrames) -> bool:
     """Tell whether the lap's place in the session follows from its condition, or nearly so."""
-    timed = frames.laps.dropna(subset=["lap_time_s"])
+    timed = frames.by_place.dropna(subset=["lap_time_s"])
     reference = reference_condition(frames.parts)
     if reference is None or timed["condition"].nunique() < 2:
         return False
@@ -35,12 +36,7 @@ def other_orders(frames: StudyFrames) -> tuple[int, int]:
     if not orders:
         return 0, 0
     ((common, _),) = Counter(orders).most_common(1)
-    return sum(not _part_of(order, common) for order in orders), len(orders)
-
-
-def _part_of(order: tuple[str, ...], whole: tuple[str, ...]) -> bool:
-    left = iter(whole)
-    return all(condition in left for condition in order)
+    return sum(not part_of(order, common) for order in orders), len(orders)
 
 
 def practice_table(frames: StudyFrames, model: Sequence[TestResult]) -> pd.DataFrame:
@@ -69,7 +65,7 @@ def practice_table(frames: StudyFrames, model: Sequence[TestResult]) -> pd.DataF
                "ratio_high", "explains_percent", "explains_all_percent"]  # fmt: skip
     rows: list[dict[str, object]] = []
     if order_confounded(frames):
-        places = frames.laps.groupby("condition")["lap"].mean()
+        places = frames.by_place.groupby("condition")["lap"].mean()
         for contrast in model:
             condition, _, reference = contrast.name.partition(" against ")
             if math.isfinite(contrast.low):  # a contrast without an interval cannot be shifted

@@ -28,6 +28,7 @@ from analysis.tables.reliability import reliability_table
 from analysis.tables.scales import scale_table
 from analysis.tables.sections import section_table
 from analysis.tables.survey import survey_table
+from analysis.unfinished import NobodyFinished, nobody_finished
 from protocols.instrument import Instrument
 from protocols.record.reader import Study
 
@@ -56,6 +57,8 @@ class StudyResults:
         Who took part and who is analysed.
     records
         Measures of every analysed lap, and its pooled steps.
+    unfinished
+        Conditions in which nobody finished a lap.
     declared
         Comparisons the protocol declares.
     lap_times
@@ -77,6 +80,7 @@ class StudyResults:
     frames: StudyFrames
     flow: Flow
     records: LapRecords
+    unfinished: tuple[NobodyFinished, ...]
     declared: tuple[PairedComparison, ...]
     lap_times: tuple[PairedComparison, ...]
     model: tuple[TestResult, ...]
@@ -110,6 +114,7 @@ def analyse(study: Study, progress: Progress | None = None) -> StudyResults:
         frames=frames,
         flow=participants_flow(frames),
         records=records,
+        unfinished=nobody_finished(study),
         declared=declared_comparisons(frames),
         lap_times=lap_times,
         model=model,
@@ -128,12 +133,12 @@ def _model(frames: StudyFrames) -> tuple[TestResult, ...]:
     reference = reference_condition(frames.parts)
     if reference is None:
         return ()
-    return lap_time_model(frames.laps, reference, generator(frames.study, "mixed model"))
+    return lap_time_model(frames.by_place, reference, generator(frames.study, "mixed model"))
 
 
 def _contrasts(frames: StudyFrames) -> tuple[TestResult, ...]:
     reference = reference_condition(frames.parts)
-    return () if reference is None else own_contrasts(frames.laps, reference)
+    return () if reference is None else own_contrasts(frames.by_place, reference)
 
 
 def _overlap(frames: StudyFrames, records: LapRecords) -> TestResult | None:

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from protocols.course.drivable import undrivable
 from protocols.course.schema import Course
@@ -102,7 +103,10 @@ def resolve_study(
     if faults:
         raise document.error(faults)
     beside = parts_beside(protocol, source.folder, document)
-    study = _resolved(protocol, chosen, instruments, participants, source.folder)
+    elsewhere = course is not None and chosen.name != protocol.course
+    study = _resolved(
+        protocol, chosen, instruments, participants, source.folder, driven_elsewhere=elsewhere
+    )
     places = {
         spoken(where): f"{document.source}:{line}"
         for where, line in document.lines.items()
@@ -198,12 +202,16 @@ def _resolved(
     instruments: dict[str, Instrument],
     participants: int | None,
     folder: Path | None,
+    *,
+    driven_elsewhere: bool,
 ) -> ResolvedStudy:
     cohort = protocol.cohort
     if participants is not None:
         cohort = cohort.model_copy(update={"participants": participants})
     laps = laps_with_items(protocol, instruments)
-    changes = {"course": course.name, "laps": laps, "cohort": cohort}
+    changes: dict[str, Any] = {"course": course.name, "laps": laps, "cohort": cohort}
+    if driven_elsewhere:  # published figures belong to the course that the protocol names
+        changes["replicates"] = None
     return ResolvedStudy(
         protocol.model_copy(update=changes), course, tuple(instruments.values()), folder
     )

@@ -33,6 +33,9 @@ class ModelChoice(FileModel):
         return self
 
 
+Publication = Literal["soh-demiris-2013"]
+"""Published studies that the analysis knows the figures of."""
+
 CasterName = Literal["sweep", "pybullet"]
 
 
@@ -81,6 +84,9 @@ class StudyProtocol(FileModel):
         What participants are asked about themselves before the first lap.
     debrief
         Shown after everything else; null for none.
+    replicates
+        The published study that this one repeats, whose figures its report shows beside its own;
+        null for a study of its own. It changes nothing that is run or recorded.
     """
 
     schema_version: Annotated[Literal[1], FormatVersion, Field(alias="schema")] = 1
@@ -101,6 +107,7 @@ class StudyProtocol(FileModel):
     consent: Consent | None = None
     demographics: Annotated[tuple[Particular, ...], Field(max_length=100)] = ()
     debrief: Text | None = None
+    replicates: Publication | None = None
 
     @model_validator(mode="after")
     def _parts_agree(self) -> Self:

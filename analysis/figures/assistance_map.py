@@ -11,6 +11,7 @@ from matplotlib.image import AxesImage
 
 from analysis.figures.plan import draw_plan
 from analysis.figures.style import GREY, new_figure, say_nothing_to_show
+from analysis.figures.text import wrapped
 from analysis.maps import Grid, counts, density, plan_grid, smoothed
 from analysis.measures.streams import Numbers
 from protocols.course.schema import Course
@@ -48,13 +49,13 @@ def assistance_map(steps: pd.DataFrame, course: Course, conditions: Sequence[str
         image = _density(axes, maps[condition], grid, top)
         _paths(axes, steps[steps["condition"] == condition])
         draw_plan(axes, course)
-        axes.set_title(condition, fontsize=10)
+        axes.set_title(wrapped(condition, 34, lines=3), fontsize=10)
     for axes in panels[len(conditions) :]:
         axes.axis("off")
     if image is not None:
         bar = figure.colorbar(image, ax=list(panels), orientation="horizontal", shrink=0.5,
                               aspect=30, pad=0.02)  # fmt: skip
-        bar.set_label("density of assisted steps / m$^{-2}$", fontsize=9)
+        bar.set_label("density of assisted steps / m⁻²", fontsize=9)
         bar.ax.tick_params(labelsize=8)
     return figure
 

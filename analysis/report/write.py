@@ -9,6 +9,7 @@ from analysis.report.page import build_page
 from analysis.report.render import render
 from analysis.results import analyse
 from analysis.statistics import statistics_json
+from analysis.tables.csv_file import csv_file
 from protocols.files.errors import InputError
 from protocols.record.atomic import partial_beside
 from protocols.record.reader import open_study
@@ -49,14 +50,14 @@ def write_report(study_dir: Path, progress: Callable[[str], None] | None = None)
         settle(picture.figure)
     svgs = {picture.name: svg(picture.figure) for picture in page.pictures}
     pngs = {picture.name: png(picture.figure) for picture in page.pictures}
-    tables = {t.name: t.frame.to_csv(index=False, lineterminator="\n") for t in page.tables}
+    tables = {t.name: csv_file(t.frame) for t in page.tables}
     tell("Writing the report")
     contents: dict[str, bytes] = {
         "index.html": render(page, svgs).encode(),
         "statistics.json": statistics_json(results).encode(),
         **{f"figures/{name}.svg": content for name, content in svgs.items()},
         **{f"figures/{name}.png": content for name, content in pngs.items()},
-        **{f"tables/{name}.csv": text.encode() for name, text in tables.items()},
+        **{f"tables/{name}.csv": content for name, content in tables.items()},
     }
     try:
         replace_folder(study_dir / REPORT, contents)

@@ -15,6 +15,7 @@ from analysis.reproduction.markdown import markdown
 from analysis.reproduction.page import build_page
 from analysis.reproduction.people_rows import people_rows
 from analysis.reproduction.row import Row
+from analysis.tables.csv_file import csv_file
 from protocols.files.errors import InputError
 from protocols.record.atomic import partial_beside
 
@@ -96,10 +97,7 @@ def contents_of(page: Page, rows: Sequence[Row]) -> dict[str, bytes]:
         f"{PAGE}.json": f"{listed}\n".encode(),
         **{f"figures/{name}.svg": content for name, content in svgs.items()},
         **{f"figures/{name}.png": content for name, content in pngs.items()},
-        **{
-            f"tables/{t.name}.csv": t.frame.to_csv(index=False, lineterminator="\n").encode()
-            for t in page.tables
-        },
+        **{f"tables/{t.name}.csv": csv_file(t.frame) for t in page.tables},
     }
 
 

@@ -17,12 +17,14 @@ def check(
 
     Example: lad-study check studies/four-lap-seed0
     """
-    from protocols.record.check import check_study
+    from protocols.record.check import check_remarks, check_study
 
     with progress_line() as tell:
         faults = check_study(study, tell)
     for fault in faults:
         say(fault)
     if not faults:
+        for remark in check_remarks(study):
+            say(f"{study}: repaired on reading: {remark}")
         say(f"{study}: whole")
     return 1 if faults else 0

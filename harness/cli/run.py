@@ -67,6 +67,8 @@ def run(
         say(f"{outcome.found} of {outcome.planned} sessions were there already.")
     if not no_report and outcome.found + outcome.finished:
         _report(folder)
+    if outcome.found + outcome.finished:
+        _say_what_nobody_finished(folder)
     say(f"Study:  {folder}")
     if outcome.failed:
         complain(_failures(folder, outcome))
@@ -120,6 +122,14 @@ def _failures(folder: Path, outcome: "Outcome") -> str:
         f"{failure_reason(folder, outcome.failed[0])}): see {folder / 'logs'}; "
         "--retry-failed runs them again (those whose process died, the same command too)."
     )
+
+
+def _say_what_nobody_finished(folder: Path) -> None:
+    from analysis.unfinished import nobody_finished
+    from protocols.record.reader import open_study
+
+    for unfinished in nobody_finished(open_study(folder)):
+        complain(unfinished.sentence)
 
 
 def _report(folder: Path) -> None:

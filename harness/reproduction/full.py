@@ -111,6 +111,7 @@ def _taught(laps: ResolvedStudy, variant: Variant) -> ResolvedStudy:
             "name": f"{ROBUSTNESS} {variant.name}",
             "title": f"Robustness: {variant.group}, {variant.label}",
             "description": "Lap times after one and three demonstrations.",
+            "replicates": None,
             "conditions": conditions,
             "laps": tuple(PlannedLap(condition=name) for name in TEACHING),
             "model": variant.model,
@@ -137,6 +138,7 @@ def _elsewhere(laps: ResolvedStudy, course: Course, out: Path) -> ResolvedStudy:
             "description": "Each replicate drives with the model that three demonstrations of the "
             "default model's robustness study have taught it.",
             "course": course.name,
+            "replicates": None,
             "conditions": conditions,
             "laps": tuple(PlannedLap(condition=name) for name in ELSEWHERE),
             "model": ModelChoice(use="lad.trained:load", options={"path": path}),

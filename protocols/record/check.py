@@ -1,6 +1,6 @@
 """Verify a study directory: what is wrong in it, and what to do about it."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pyarrow as pa
@@ -9,13 +9,14 @@ from protocols.files.errors import InputError
 from protocols.order import laps_of
 from protocols.record.codebook import CODEBOOK_FILE, codebook_json
 from protocols.record.column import SCHEMA_VERSIONS, arrow_schema, brought_up_to_date
+from protocols.record.elsewhere.faults import Tell, foreign_faults
 from protocols.record.header import STUDY_FILE, StudyHeader, read_header
 from protocols.record.identity import study_digest
 from protocols.record.journal import journal_path
 from protocols.record.logs import failures
 from protocols.record.merge import STUDY_TABLES, session_rows
 from protocols.record.parquet import parquet_shape, read_parquet
-from protocols.record.reader import off_scale, open_study
+from protocols.record.reader import open_study
 from protocols.record.resume import resume_command
 from protocols.record.rows import participant_id, participant_number, questions_follow
 from protocols.record.session import (
@@ -29,9 +30,6 @@ from protocols.record.sessions import SESSIONS, read_manifest, session_faults, s
 from protocols.record.steps import STEP_COLUMNS
 from protocols.record.tables import LAP_COLUMNS, PARTICIPANT_COLUMNS, SURVEY_COLUMNS
 from protocols.resolved import ResolvedStudy
-
-Tell = Callable[[str], None]
-"""Called with what is being looked at now."""
 
 
 def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
@@ -48,7 +46,7 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
     """
     header = read_header(folder)
     if header.origin == "elsewhere":
-        return tuple(_foreign_faults(folder))
+        return tuple(foreign_faults(folder, tell))
     sessions = session_folders(folder)
     again = f"`{resume_command(folder, header)}`"
     faults = [
@@ -80,20 +78,9 @@ def _mend(header: StudyHeader, session: Path, again: str) -> str:
     return "it is a living person's and has no journal: keep it, and repair it by hand"
 
 
-def _foreign_faults(folder: Path) -> Iterator[str]:
-    """Read everything there is of a study that was recorded elsewhere."""
-    try:
-        study = open_study(folder)
-        laps = study.laps
-        for participant, lap in zip(
-            laps["participant"].to_pylist(), laps["lap"].to_pylist(), strict=True
-        ):
-            if study.has_steps(participant, lap):
-                study.steps(participant, lap)
-        for _, fault in off_scale(study):
-            yield fault
-    except InputError as error:
-        yield str(error)
+def check_remarks(folder: Path) -> tuple[str, ...]:
+    """Return what is read with a repair in a study directory without faults, one line each."""
+    return open_study(folder).remarks
 
 
 def _header_faults(folder: Path, header: StudyHeader, again: str) -> Iterator[str]:

@@ -67,6 +67,15 @@ class StudyHeader(FileModel):
         return self
 
     @property
+    def planned_participants(self) -> int | None:
+        """How many people were planned; None where a study from elsewhere does not say so."""
+        cohort = self.protocol.cohort
+        said = {"cohort"} <= self.protocol.model_fields_set
+        if self.origin == "elsewhere" and not (said and "participants" in cohort.model_fields_set):
+            return None
+        return cohort.participants
+
+    @property
     def study(self) -> ResolvedStudy:
         """The study, with everything it refers to."""
         return ResolvedStudy(self.protocol, self.course, self.instruments)

@@ -20,6 +20,9 @@ _LATER: Mapping[str, Mapping[str, Any]] = {
 """Fields that came after the first version, with their defaults. A study that does not use them
 is the study it was: its digest and its record stay the same."""
 
+_ABOUT = ("replicates",)
+"""Fields of a protocol that only say what its report shows beside it: not part of the study."""
+
 
 def study_digest(study: ResolvedStudy, seed: int) -> str:
     """Return the SHA-256 of everything but the participant's number that a session depends on.
@@ -54,6 +57,8 @@ def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
     """Return everything but the participant's number that a session depends on, as plain data."""
     protocol = study.protocol.model_dump(mode="json", by_alias=True)
     del protocol["cohort"]["participants"]
+    for field in _ABOUT:
+        del protocol[field]
     _leave_out_defaults(protocol, "protocol")
     for lap in protocol["laps"]:
         _leave_out_defaults(lap, "lap")

@@ -1,13 +1,12 @@
 """Logs of a study directory: not part of the record."""
 
-import csv
-import io
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import BinaryIO
 
+from protocols.files.csv_text import csv_text
 from protocols.record.atomic import naming, write_whole
 
 LOGS = "logs"
@@ -90,15 +89,13 @@ def write_warnings(folder: Path, participant: str, warned: Sequence[str]) -> Non
 def _append(folder: Path, name: str, row: Sequence[str], header: Sequence[str]) -> None:
     path = folder / LOGS / name
     path.parent.mkdir(exist_ok=True)
-    text = io.StringIO()
-    lines = csv.writer(text, lineterminator="\n")
+    text = csv_text([row])
     with naming(path), path.open("a+b") as stream:
         if stream.seek(0, os.SEEK_END) == 0:
-            lines.writerow(header)
+            text = csv_text([header, row])
         elif _is_cut_short(stream):
-            text.write("\n")
-        lines.writerow(row)
-        stream.write(text.getvalue().encode())
+            text = f"\n{text}"
+        stream.write(text.encode())
 
 
 def _is_cut_short(opened: BinaryIO) -> bool:

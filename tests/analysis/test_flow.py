@@ -118,7 +118,7 @@ def test_rows_that_refer_to_nothing_are_named(make_study):
     surveys.to_parquet(folder / "surveys.parquet")
     said = participants_flow(study_frames(open_study(folder))).left_out
     assert said == (
-        "1 lap of people who are not in the table of participants",
+        "1 lap of people who are not in the table of participants (P0099)",
         "1 lap of conditions that the study does not have (blindfolded)",
         "1 answer of instruments that the study does not have (horoscope)",
     )

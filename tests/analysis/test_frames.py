@@ -122,7 +122,7 @@ def test_answers_that_nobody_can_use_are_named(make_study):
 
     frames = changed(make_study(participants=2), "surveys", spoilt)
     assert participants_flow(frames).left_out == (
-        "1 answer of people who are not in the table of participants",
+        "1 answer of people who are not in the table of participants (GHOST)",
         "1 answer of conditions that the study does not have (zzz)",
         "1 answer of items of driving-assistance that the study does not have (Q99)",
     )

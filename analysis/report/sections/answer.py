@@ -25,6 +25,7 @@ def answer_section(results: StudyResults) -> Section:
         blocks += [Paragraph(_sentence(c)) for c in chosen]
     else:
         blocks.append(Paragraph(_nothing_to_say(results)))
+    blocks += [Caution(u.sentence) for u in results.unfinished]
     blocks += [Caution(text) for text in _cautions(results)]
     if chosen:
         blocks.append(_picture(chosen))

@@ -59,8 +59,8 @@ def _tost(comparisons: Sequence[PairedComparison]) -> list[Shown]:
 
 _ABOUT_KS = (
     "Kolmogorov-Smirnov, lap times of every two conditions. It compares whole distributions and "
-    "assumes two separate groups; the paper used it on laps of the autonomous driver. Here both "
-    "samples come from the same people, so D and its p only describe."
+    "assumes two separate groups. Here both samples come from the same "
+    "people, so D and its p only describe."
 )
 
 

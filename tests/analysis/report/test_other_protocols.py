@@ -11,6 +11,7 @@ HEAD = """
 schema: 1
 name: other
 title: Another study
+replicates: soh-demiris-2013
 course: lab-office
 cohort: {participants: 2, driver: {use: DRIVER}}
 conditions:
