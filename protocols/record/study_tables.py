@@ -15,6 +15,7 @@ from protocols.record.elsewhere.joined import (
     joined_laps,
     with_practice,
 )
+from protocols.record.elsewhere.people import twins
 from protocols.record.elsewhere.rules import LAPS, PARTICIPANTS, SURVEYS, TableRules
 from protocols.record.header import StudyHeader
 from protocols.record.merge import LAPS_TABLE, PARTICIPANTS_TABLE, SURVEYS_TABLE
@@ -84,6 +85,8 @@ class StudyTables:
         found = [*self.participants.remarks, *self.laps.remarks]
         if self.elsewhere:
             found += doubtful_times(self.laps.table)
+            if alike := twins(self.people):
+                found.append(f"participants.parquet: {', '.join(alike)} look alike: one person?")
         with suppress(InputError):  # said where the answers are read
             found += self.surveys.remarks
         return tuple(found)
