@@ -11,6 +11,7 @@ from protocols.consistency import check_consistency
 from protocols.declared import Comparison, Exclusion
 from protocols.files.file_model import FileModel, FormatVersion, Name, part_name
 from protocols.laps import PlannedLap
+from protocols.live import LiveSettings
 from protocols.pages import Consent, Particular, Text
 from protocols.shipped_parts import LAD, MODELS
 from protocols.start_noise import StartNoise
@@ -84,6 +85,8 @@ class StudyProtocol(FileModel):
         What participants are asked about themselves before the first lap.
     debrief
         Shown after everything else; null for none.
+    live
+        What living people see and may do.
     replicates
         The published study that this one repeats, whose figures its report shows beside its own;
         null for a study of its own. It changes nothing that is run or recorded.
@@ -107,6 +110,7 @@ class StudyProtocol(FileModel):
     consent: Consent | None = None
     demographics: Annotated[tuple[Particular, ...], Field(max_length=100)] = ()
     debrief: Text | None = None
+    live: LiveSettings = LiveSettings()
     replicates: Publication | None = None
 
     @model_validator(mode="after")

@@ -1,12 +1,13 @@
 """One participant's session, stage by stage."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 from harness.session.arbitration import ARBITRATIONS
 from harness.session.clock import Clock, LapStoppedError, VirtualClock
 from harness.session.experience import experience_of
 from harness.session.journal import Journal
-from harness.session.lap import Ending, Lap, Rules
+from harness.session.lap import Ending, Lap, Recorder, Rules, Step
 from harness.session.lap_log import LapLog, summary
 from harness.session.limitation import right_turn_limit, unlimited
 from harness.session.model import basis_vectors, saved
@@ -51,7 +52,11 @@ class Session:
     clock
         Paces the laps; virtual by default.
     journal
-        Receives what is applied before it acts; None for no journal.
+        Told what is applied before it acts; None for no journal.
+    watch
+        Told of each step after it is recorded; None for no one.
+    repeats
+        Asked after each lap, with its row, whether the lap is driven once more.
 
     Attributes
     ----------
@@ -70,12 +75,16 @@ class Session:
         *,
         clock: Clock | None = None,
         journal: Journal | None = None,
+        watch: Recorder | None = None,
+        repeats: Callable[[LapRow], bool] = lambda _: False,
     ) -> None:
+        self._watch, self._repeats = watch, repeats
         self._run, self._number, self._world = run, number, world
         self._parts, self._journal = parts, journal
         self._clock: Clock = VirtualClock() if clock is None else clock
         self._centreline = Centreline(run.study.course)
         self.stages = stages_of(run.study.protocol, number, run.seed)
+        self._planned_laps = sum(stage.kind == "lap" for stage in self.stages)
         self.done = 0
         self._ended = False
         self._consented = True
@@ -93,6 +102,10 @@ class Session:
     def over(self) -> bool:
         """Whether nothing is left to do: every stage is over, or the participant has left."""
         return self._ended or self.done == len(self.stages)
+
+    def end(self) -> None:
+        """Have nothing follow."""
+        self._ended = True
 
     def advance(self) -> Stage:
         """Go through the next stage, and return it."""
@@ -120,11 +133,24 @@ class Session:
         if stage.lap is not None and stage.planned is not None and stage.kind == "lap":
             ending = self._drive(stage.lap, stage.planned)
             self._ended = ending.reason in ENDS_SESSION
+            if not self._ended and self._repeats(self._laps[-1].row):
+                self._repeat(stage)
         elif stage.planned is not None and stage.kind == "questions":
             if questions_follow(self._laps[-1].row.end_reason):
                 self._ask(stage.planned)
         else:
             self._show(stage)
+
+    def _repeat(self, stage: Stage) -> None:
+        """Put a lap into the session once more, next; it gets the first number that is free."""
+        if self._journal is not None:
+            self._journal.repeated()
+        free = 1 + max(other.lap for other in self.stages if other.lap is not None)
+        following = [stage, *self.stages[self.done + 1 :]]
+        same = [other for other in following if other.lap == stage.lap]
+        rest = [other for other in following if other.lap != stage.lap]
+        fresh = [replace(other, lap=free) for other in same]
+        self.stages = (*self.stages[: self.done + 1], *fresh, *rest)
 
     def _show(self, stage: Stage) -> None:
         """Show a page, and keep what is entered on it."""
@@ -160,7 +186,8 @@ class Session:
         log = LapLog(self._centreline, demonstrated=condition.assistant == "demonstrator")
         gates = GateCounter(self._run.study.course)
         rules = rules_of(condition, planned.time_limit_s, protocol.hold_s)
-        ending = Lap(self._world, parts, rules, gates, self._journal).drive(log, self._clock)
+        recorder = log if self._watch is None else _Both(log, self._watch)
+        ending = Lap(self._world, parts, rules, gates, self._journal).drive(recorder, self._clock)
         steps = log.table()
         row = LapRow(
             participant=participant_id(number),
@@ -172,7 +199,7 @@ class Session:
             training=condition.training and isinstance(parts.model, Learner),
             seed=fingerprint(seed, number, f"lap {lap}/world"),
             **summary(steps, ending, self._world.period),
-            **log.pauses(),
+            **log.quality(),
             **basis_vectors(parts.model),
         )
         self._laps.append(RecordedLap(row, steps))
@@ -204,7 +231,7 @@ class Session:
     def _participant_row(self) -> ParticipantRow:
         protocol, person = self._run.study.protocol, self._parts.person
         rows = [recorded.row for recorded in self._laps]
-        planned = sum(stage.kind == "lap" for stage in self.stages)
+        planned = self._planned_laps
         reason = exclusion_reason(protocol.exclusion, rows)
         entered: Mapping[str, object] = person.particulars() | self._entered
         return ParticipantRow(
@@ -217,12 +244,24 @@ class Session:
             handedness=entered.get("handedness"),  # type: ignore[arg-type]
             traits=person.as_numbers(),
             consented=self._consented,
-            completed=len(rows) == planned and all(row.completed for row in rows),
+            completed=sum(row.completed for row in rows) >= planned,
             laps_planned=planned,
             laps_driven=len(rows),
             excluded=reason is not None,
             exclusion_reason=reason,
         )
+
+
+class _Both:
+    """A recorder, and another that is told after it."""
+
+    def __init__(self, first: Recorder, second: Recorder) -> None:
+        self._first, self._second = first, second
+
+    def record(self, step: Step) -> None:
+        """Keep one step."""
+        self._first.record(step)
+        self._second.record(step)
 
 
 def rules_of(condition: Condition, time_limit_s: float, hold_s: float) -> Rules:

@@ -7,14 +7,22 @@ from typing import Any
 
 from protocols.files.document import spoken
 from protocols.files.fault import Location
+from protocols.live import LiveSettings
 from protocols.resolved import ResolvedStudy
 
 _ABSENT = object()
 
 
 _LATER: Mapping[str, Mapping[str, Any]] = {
-    "protocol": {"hold_s": 0.3, "consent": None, "demographics": [], "debrief": None},
-    "lap": {"break_s": 0.0},
+    "protocol": {
+        "hold_s": 0.3,
+        "consent": None,
+        "demographics": [],
+        "debrief": None,
+        "live": LiveSettings().model_dump(mode="json"),
+    },
+    "lap": {"break_s": 0.0, "until_comfortable": False},
+    "exclusion": {"max_late_share": None, "max_input_age_s": None, "max_interruptions": None},
     "item": {"answer": "point", "lowest": None, "highest": None},
 }
 """Fields that came after the first version, with their defaults. A study that does not use them
@@ -60,6 +68,7 @@ def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
     for field in _ABOUT:
         del protocol[field]
     _leave_out_defaults(protocol, "protocol")
+    _leave_out_defaults(protocol["exclusion"], "exclusion")
     for lap in protocol["laps"]:
         _leave_out_defaults(lap, "lap")
     instruments = [i.model_dump(mode="json", by_alias=True) for i in study.instruments]
