@@ -16,6 +16,7 @@ from participants.sight import Onlooker
 from participants.survey import Question
 from protocols.code_beside import PartBeside, code_digest
 from protocols.files.errors import InputError
+from protocols.load import load_course
 from protocols.shipped_parts import (
     DEMONSTRATORS,
     DRIVERS,
