@@ -80,5 +80,5 @@ def saved_if_possible(part: Any) -> bytes | None:
     """Return the part's bytes; None where it has none, or cannot give them."""
     try:
         return saved(part)
-    except (Exception, SystemExit):  # noqa: BLE001  # the check of saving says what is wrong
+    except (Exception, SystemExit):  # noqa: BLE001  # the check of saving reports what is wrong
         return None
