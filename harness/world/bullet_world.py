@@ -144,7 +144,7 @@ class BulletWorld:
             chair.advance()
             if watch:
                 touched = chair.touching() or touched
-        if touched:  # what the wheels have left, or the chair would leap off when it comes free
+        if touched:  # the wheels' real speed, or the chair would leap when it comes free
             pose = chair.pose()
             controller.reset(chair.velocity(pose.heading))
         return touched

@@ -183,7 +183,7 @@ def _admissible(near: Any, state: Any, command: Any, period: float) -> bool:
         if spare < 0.0:
             ahead = stretched_clearance(near, (x, y, heading), front, rear)
             spare = ahead - max(keep, keep_ahead)
-            if spare < 0.0:  # the chair itself is never nearer than what it is stretched to
+            if spare < 0.0:  # the chair itself is never nearer than its stretched outline
                 own = ahead if command[0] == 0.0 else clearance(near, (x, y, heading))
                 spare = min(ahead - keep_ahead, own - keep)
             if spare < 0.0:

@@ -10,7 +10,7 @@ from analysis.stats.describe import describe
 
 
 def people_section(results: StudyResults) -> Section:
-    """Return who was planned, recorded, excluded and why, and analysed; and the laps they drove."""
+    """Return the numbers planned, recorded, excluded and why, and analysed; and the laps driven."""
     frames = results.frames
     blocks: list[Block] = [
         table("participants_flow", "Participants flow.", _stages(results.flow),
