@@ -120,7 +120,7 @@ def drive(
     role, part
         What is checked.
     world
-        Of the setting's course. It stands at the start afterwards.
+        Of the setting's course. Afterwards the chair is at the start.
     setting
         Course, period and seed.
     plans

@@ -27,7 +27,7 @@ class Evidence:
         Laps in which a third one took its place.
     repeated
         What a fourth one answers when it is shown what the third one was shown, while the world
-        stands at the start.
+        is at the start.
     saved
         The bytes of ``first`` after that, if it is saved and ``again`` is saved as the same.
     """

@@ -2,7 +2,7 @@
 
 What cannot be seen from outside can be shown by an experiment. A part took its place in a lap:
 the world moved on around it. Another one, made alike, is shown a recording of the same, while the
-world stands at the start. One that looks at what it is shown answers the same. One that reaches
+world is at the start. One that looks at what it is shown answers the same. One that reaches
 for the world itself, by the frames of its callers or among all objects of the process, finds
 another state there, or none, and answers differently or fails.
 """

@@ -12,7 +12,7 @@ still turn on the spot; everywhere else about a centimetre, so that narrow passa
 a tail may swing. Nearer than that already, a step may use up half of what is left, which lets
 one steer off a wall and yet never reaches it.
 
-ARTY sees all around with three scanners, so the guard gets the true distances to what stands
+ARTY sees all around with three scanners, so the safeguard gets the true distances to the obstacles
 around, not the one simulated scan.
 """
 
