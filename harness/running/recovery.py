@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from harness.running.sessions import world_of
-from harness.session.parts import make_parts
 from harness.session.replay import replay
 from harness.session.study_run import StudyRun
 from protocols.files.errors import InputError
@@ -80,5 +79,5 @@ def _recover(folder: Path, run: StudyRun, name: str) -> None:
     journal = read_journal(folder / JOURNALS / f"{name}.jsonl")
     if not number:
         raise InputError(f"{journal.path}: no participant is called {name!r}; allowed: P0001, ...")
-    record = replay(journal, run, number, world_of(run), make_parts(run, number))
+    record = replay(journal, run, number, world_of(run))
     write_session(folder, name, encode(record, run.digest), keep_damaged=True)
