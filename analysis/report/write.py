@@ -79,7 +79,7 @@ def replace_folder(target: Path, contents: dict[str, bytes]) -> None:
     partial = partial_beside(target)
     aside = partial_beside(target.with_name(f"old-{target.name}"))
     for leftover in (partial, aside):
-        shutil.rmtree(leftover, ignore_errors=True)
+        _remove(leftover)
     try:
         for name, content in contents.items():
             path = partial / name
@@ -93,4 +93,12 @@ def replace_folder(target: Path, contents: dict[str, bytes]) -> None:
         if aside.exists() and not target.exists():
             aside.rename(target)
         raise
-    shutil.rmtree(aside, ignore_errors=True)
+    _remove(aside)
+
+
+def _remove(path: Path) -> None:
+    """Remove a folder; of a link to one, the link."""
+    if path.is_symlink():
+        path.unlink(missing_ok=True)
+    else:
+        shutil.rmtree(path, ignore_errors=True)

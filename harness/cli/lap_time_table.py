@@ -6,7 +6,7 @@ from pathlib import Path
 from rich import box
 from rich.table import Table
 
-from harness.cli.console import OUT
+from harness.cli.console import print_table
 from protocols.record.reader import open_study
 
 
@@ -19,7 +19,7 @@ def print_lap_times(folder: Path) -> None:
     study = open_study(folder)
     paper = study.protocol.replicates is not None
     for heading in ("n", "mean s", "sd", "median", "speedup", *(("paper s",) if paper else ())):
-        table.add_column(heading, justify="right")
+        table.add_column(heading, justify="right", no_wrap=True)
     for row in lap_summary(study).to_dict("records"):
         unfinished = f" (+{row['unfinished']} unfinished)" if row["unfinished"] else ""
         table.add_row(
@@ -31,7 +31,7 @@ def print_lap_times(folder: Path) -> None:
             _number(row["speedup_percent"], "%", 0),
             *((_number(row["paper_mean_s"], places=2),) if paper else ()),
         )
-    OUT.print(table)
+    print_table(table)
 
 
 def _number(value: float, unit: str = "", places: int = 1) -> str:
