@@ -10,6 +10,7 @@ from typer.exceptions import TyperException
 from harness.cli import (
     check,
     check_part,
+    export,
     listing,
     live,
     recover,
@@ -64,6 +65,7 @@ app.command("live")(live.live)
 app.command("report")(report.report)
 app.command("reproduce")(reproduce.reproduce)
 app.command("replay")(replay.replay)
+app.command("export")(export.export)
 app.command("validate")(validate.validate)
 app.command("check")(check.check)
 app.command("check-part")(check_part.check_part)
