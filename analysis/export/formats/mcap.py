@@ -1,18 +1,19 @@
-"""ROS 2 recordings in MCAP: a folder per participant that ``ros2 bag`` and Foxglove open.
+"""ROS 2 recordings in MCAP: a file per participant that ``ros2 bag`` and Foxglove open.
 
+Messages are CDR, as in ROS 2; chunks carry checksums, which the writer of ``rosbags`` leaves out.
 The record has no rays, only the smallest range of each of 15 segments: the scan has 15 readings.
 """
 
 import json
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import IO, Any, NamedTuple
 
 import numpy as np
-from rosbags.interfaces import Connection
-from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
+from mcap.writer import Writer
 from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
 
@@ -32,8 +33,8 @@ MAP, BASE, LASER = "map", "base_link", "laser"
 WIDTH_RAD = np.pi / N_SEGMENTS
 
 _HOW = f"""\
-ROS 2 recordings (MCAP, CDR), one folder per participant: `ros2 bag play P0001`, or drop
-`P0001/P0001.mcap` on Foxglove; a layout for it comes with lad-study (`examples/`).
+ROS 2 recordings (MCAP, CDR), one file per participant: `ros2 bag play P0001.mcap`, or drop it on
+Foxglove; a layout for it comes with lad-study (`examples/`).
 
 | topic | type | what |
 |---|---|---|
@@ -157,73 +158,80 @@ def write(content: Content, folder: Path, tell: Tell) -> None:
     """Write one recording per participant into an empty folder."""
     for participant, laps in groupby(content.laps_with_steps(), lambda lap: lap.lap["participant"]):
         tell(f"Recording of {participant}")
-        _Recording(folder / str(participant)).write(laps)
+        with (folder / f"{participant}.mcap").open("wb") as stream:
+            _Recording(stream).write(laps)
     write_about(content, folder, _HOW)
 
 
 class _Recording:
     """The recording of one participant's session."""
 
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
+    def __init__(self, stream: IO[bytes]) -> None:
         self._ros = _Ros(get_typestore(Stores.ROS2_HUMBLE))
-        self._connections: dict[str, Connection] = {}
+        self._writer = Writer(stream)
+        self._kinds = {topic.name: topic.kind for topic in TOPICS}
+        self._kinds |= {"/lap": "std_msgs/msg/String", "/tf_static": "tf2_msgs/msg/TFMessage"}
+        self._schemas: dict[str, int] = {}
+        self._channels: dict[str, int] = {}
+        self._sent: Counter[str] = Counter()
 
     def write(self, laps: Iterator[LapSteps]) -> None:
         """Write all laps, one after the other."""
-        writer = Writer(self._folder, version=9, storage_plugin=StoragePlugin.MCAP)
-        writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
-        with writer:
-            kinds = {topic.name: topic.kind for topic in TOPICS}
-            kinds |= {"/lap": "std_msgs/msg/String", "/tf_static": "tf2_msgs/msg/TFMessage"}
-            for name, kind in kinds.items():
-                self._connections[name] = writer.add_connection(
-                    name, kind, typestore=self._ros.store
-                )
-            self._send(writer, "/tf_static", self._laser(), EPOCH_S * 10**9)
-            begin = EPOCH_S * 10**9
-            for lap in laps:
-                begin = self._lap(writer, lap, begin) + round(BETWEEN_LAPS_S * 1e9)
+        self._writer.start(profile="ros2", library="lad-study")
+        for name, kind in self._kinds.items():
+            self._channels[name] = self._channel(name, kind)
+        self._send("/tf_static", self._laser(), EPOCH_S * 10**9)
+        begin = EPOCH_S * 10**9
+        for lap in laps:
+            begin = self._lap(lap, begin) + round(BETWEEN_LAPS_S * 1e9)
+        self._writer.finish()
 
-    def _lap(self, writer: Writer, lap: LapSteps, begin: int) -> int:
+    def _channel(self, topic: str, kind: str) -> int:
+        if kind not in self._schemas:
+            text, _ = self._ros.store.generate_msgdef(kind, ros_version=2)
+            self._schemas[kind] = self._writer.register_schema(kind, "ros2msg", text.encode())
+        return self._writer.register_channel(topic, "cdr", self._schemas[kind], {})
+
+    def _lap(self, lap: LapSteps, begin: int) -> int:
         """Write one lap; return when it ended, ns."""
         row = {n: lap.lap[n] for n in ("participant", "lap", "condition", "practice", "training")}
-        self._say(writer, {"event": "start", **row}, begin)
+        self._say({"event": "start", **row}, begin)
         steps = lap.steps.to_pylist()
         for step in steps:
             ns = begin + round(step["t_s"] * 1e9)
             for topic in TOPICS:
                 message = topic.message(self._ros, step, ns)
                 if message is not None:
-                    self._send(writer, topic.name, message, ns)
+                    self._send(topic.name, message, ns)
         end = begin + round(_end_s(steps) * 1e9)
-        self._after(writer, lap, steps, end)
+        self._after(lap, steps, end)
         ending = {n: lap.lap[n] for n in ("completed", "end_reason", "lap_time_s")}
-        self._say(writer, {"event": "end", **row, **ending}, end)
+        self._say({"event": "end", **row, **ending}, end)
         return end
 
-    def _after(self, writer: Writer, lap: LapSteps, steps: list[dict[str, Any]], end: int) -> None:
+    def _after(self, lap: LapSteps, steps: list[dict[str, Any]], end: int) -> None:
         """Write the state after the last step, where the record has it."""
         if not steps or steps[-1]["result_x_m"] is None:
             return
         last = steps[-1]
         state = {n: last[f"result_{n}"] for n in ("x_m", "y_m", "heading_rad")}
         state |= {"velocity_v": last["result_v"], "velocity_w": last["result_w"]}
-        self._send(writer, "/odom", _odometry(self._ros, state, end), end)
+        self._send("/odom", _odometry(self._ros, state, end), end)
         seen = {
             name: lap.lap[f"last_segment_{i:02d}"]
             for i, name in enumerate(INPUT_NAMES[-N_SEGMENTS:])
         }
         if None not in seen.values():
-            self._send(writer, "/scan", _scan(self._ros, seen, end), end)
+            self._send("/scan", _scan(self._ros, seen, end), end)
 
-    def _say(self, writer: Writer, what: dict[str, Any], ns: int) -> None:
+    def _say(self, what: dict[str, Any], ns: int) -> None:
         text = self._ros.new("std_msgs/msg/String", json.dumps(what))
-        self._send(writer, "/lap", text, ns)
+        self._send("/lap", text, ns)
 
-    def _send(self, writer: Writer, topic: str, message: Any, ns: int) -> None:
-        connection = self._connections[topic]
-        writer.write(connection, ns, self._ros.store.serialize_cdr(message, connection.msgtype))
+    def _send(self, topic: str, message: Any, ns: int) -> None:
+        content = bytes(self._ros.store.serialize_cdr(message, self._kinds[topic]))
+        self._writer.add_message(self._channels[topic], ns, content, ns, self._sent[topic])
+        self._sent[topic] += 1
 
     def _laser(self) -> Any:
         where = self._ros.vector(LASER_AHEAD, 0.0, LASER_HEIGHT)
