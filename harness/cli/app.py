@@ -11,6 +11,7 @@ from harness.cli import (
     check,
     check_part,
     export,
+    imports,
     listing,
     live,
     recover,
@@ -66,6 +67,7 @@ app.command("report")(report.report)
 app.command("reproduce")(reproduce.reproduce)
 app.command("replay")(replay.replay)
 app.command("export")(export.export)
+app.add_typer(imports.app, name="import")
 app.command("validate")(validate.validate)
 app.command("check")(check.check)
 app.command("check-part")(check_part.check_part)
