@@ -1,12 +1,15 @@
 """`lad-study import`: maps become courses, recordings become studies, exports become answers."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from harness.cli.console import complain, say
 from protocols.files.errors import InputError
+
+if TYPE_CHECKING:
+    from protocols.importing.map.ros_map import RosMap
 
 app = typer.Typer(
     name="import",
@@ -60,3 +63,77 @@ def answers(
     for line in done.unmatched:
         complain(line)
     say(f"Answers: {done.rows} questions, {done.answered} answered")
+
+
+@app.command("map")
+def import_map(
+    drawn_map: Annotated[
+        Path, typer.Argument(metavar="MAP.yaml", help="A map of ROS's map_server.")
+    ],
+    route: Annotated[
+        Path | None,
+        typer.Option(metavar="ROUTE.yaml", help="Where through it.", show_default="none"),
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="COURSE.yaml", help="The course to write.")
+    ] = None,
+    picture: Annotated[
+        Path | None,
+        typer.Option(metavar="PNG", help="A picture to look at.", show_default="beside the course"),
+    ] = None,
+) -> None:
+    """Make a course of a building's map.
+
+    Without a route: a picture of the map with a grid, and a draft of a route file. A commented
+    route to copy: lad-study show map-route.
+
+    Example: lad-study import map ward.yaml --route route.yaml --out ward-course.yaml
+    """
+    from protocols.importing.map.ros_map import read_map
+
+    drawn = read_map(drawn_map)
+    if route is None:
+        _draft_route(drawn, picture or drawn_map.with_name(f"{drawn_map.stem}-grid.png"))
+        return
+    target = needed("--out", out)
+    _write_course(drawn, route, target, picture or target.with_suffix(".png"))
+
+
+def _draft_route(drawn: "RosMap", picture: Path) -> None:
+    from analysis.figures.files import png
+    from analysis.figures.imported_map import map_with_grid
+    from protocols.importing.map.draft import draft_route
+    from protocols.record.atomic import write_whole
+
+    write_whole(picture, png(map_with_grid(drawn)))
+    typer.echo(draft_route(drawn), nl=False)
+    complain(f"Picture: {picture}")
+
+
+def _write_course(drawn: "RosMap", route: Path, out: Path, picture: Path) -> None:
+    from analysis.figures.files import png
+    from analysis.figures.imported_map import map_with_course
+    from harness.world.step_cost import step_cost
+    from protocols.files.dump import to_yaml
+    from protocols.importing.map.course import import_course
+    from protocols.load import load_course
+    from protocols.record.atomic import write_whole
+
+    done = import_course(drawn, route)
+    kinds = [bend.kind for bend in done.bends]
+    say(
+        f"Right turns: {kinds.count('sharp_right')} sharp, {kinds.count('soft_right')} soft; "
+        f"left turns: {kinds.count('left')}"
+    )
+    if "sharp_right" not in kinds:
+        complain("No right turn is sharp: the control limitation will hardly be felt.")
+    for x, y in done.too_tight:
+        complain(f"({x:.2f}, {y:.2f}): the chair touches something on the centreline there")
+    before, after = done.corners
+    say(f"Walls: {before} corners became {after}; {done.specks} specks dropped")
+    ratio = step_cost(done.course) / step_cost(load_course("lab-office"))
+    say(f"A control step takes {ratio:.1f} times as long as on lab-office")
+    write_whole(picture, png(map_with_course(drawn, done.course)))
+    write_whole(out, to_yaml(done.course).encode())
+    say(f"Picture: {picture}")
+    say(f"Course: {out}")
