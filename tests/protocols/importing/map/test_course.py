@@ -45,9 +45,9 @@ def test_walls_stand_where_the_map_has_them(bring_in):
 
 
 def _room(course):
-    """Return the free floor around a course's start."""
+    """Return the free floor around a course's start; slits narrower than 14 cm are no floor."""
     plan = floor_plan(course)
-    free = shapely.box(-20, -20, 20, 20).difference(plan)
+    free = shapely.box(-20, -20, 20, 20).difference(plan).buffer(-0.07).buffer(0.07)
     return next(p for p in shapely.get_parts(free) if p.covers(shapely.Point(0, 0)))
 
 
