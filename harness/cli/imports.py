@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from harness.cli.console import complain, say
+from harness.cli.console import complain, progress_line, say
 from protocols.files.errors import InputError
 
 if TYPE_CHECKING:
@@ -137,3 +137,43 @@ def _write_course(drawn: "RosMap", route: Path, out: Path, picture: Path) -> Non
     write_whole(out, to_yaml(done.course).encode())
     say(f"Picture: {picture}")
     say(f"Course: {out}")
+
+
+@app.command("bag")
+def import_bag(
+    bags: Annotated[
+        list[Path], typer.Argument(metavar="BAG...", help="Recordings: ROS 1, ROS 2, MCAP.")
+    ],
+    mapping: Annotated[
+        Path | None, typer.Option("--map", metavar="MAPPING.yaml", help="What is what in them.")
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Study directory to make.")
+    ] = None,
+    guess: Annotated[bool, _GUESS] = False,
+) -> None:
+    """Make a study of a real wheelchair's recordings, one session each.
+
+    Gaps, clocks and frames that do not fit are named for each lap. A commented mapping to copy:
+    lad-study show bag-mapping.
+
+    Example: lad-study import bag p1.mcap p2.mcap --map bags.yaml --out studies/ward
+    """
+    try:
+        from harness.importing.guess import guess_bag_mapping
+        from harness.importing.study import import_bags
+    except ImportError as error:
+        raise InputError(
+            f"import bag: needs the package {error.name}, which is not installed; "
+            "allowed: pip install 'lad-study[exchange]'"
+        ) from None
+    if guess:
+        typer.echo(guess_bag_mapping(bags[0]), nl=False)
+        return
+    map_file, target = needed("--map", mapping), needed("--out", out)
+    with progress_line() as tell:
+        done = import_bags(bags, map_file, target, tell)
+    for trouble in done.troubles:
+        complain(trouble)
+    say(f"Sessions: {done.sessions}, laps: {done.laps}, of which {done.finished} finished")
+    say(f"Study: {target}")
