@@ -50,9 +50,9 @@ def poses(stream: Stream, source: PoseSource, path: object) -> NDArray[np.float6
     cos, sin = math.cos(at.yaw), math.sin(at.yaw)
     x = at.x + cos * found[:, 0] - sin * found[:, 1]
     y = at.y + sin * found[:, 0] + cos * found[:, 1]
-    heading = np.unwrap(found[:, 2] + at.yaw)
+    turned = np.unwrap(found[:, 2] + at.yaw)
     ahead = source.ahead_of_axle_m
-    return np.stack([x - ahead * np.cos(heading), y - ahead * np.sin(heading), heading], axis=1)
+    return np.stack([x - ahead * np.cos(turned), y - ahead * np.sin(turned), turned], axis=1)
 
 
 def commands(stream: Stream, stick: Stick, path: object) -> NDArray[np.float64]:

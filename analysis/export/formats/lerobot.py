@@ -305,8 +305,7 @@ def _masked(name: str, numbers: NDArray[np.float64]) -> Iterator[tuple[str, NDAr
     there: NDArray[np.bool_] = np.isfinite(numbers)
     yield name, np.where(there, numbers, 0.0).astype(np.float32)
     if name in MASKED:
-        given: NDArray[np.bool_] = there.reshape(len(there), -1).all(axis=1)
-        yield f"{name}.given", given
+        yield f"{name}.given", np.asarray(there.reshape(len(there), -1).all(axis=1))
 
 
 def _array(values: NDArray[Any]) -> pa.Array:

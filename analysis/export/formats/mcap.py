@@ -184,7 +184,7 @@ class _Recording:
         begin = EPOCH_S * 10**9
         for lap in laps:
             begin = self._lap(lap, begin) + round(BETWEEN_LAPS_S * 1e9)
-        self._writer.finish()
+        self._writer.finish()  # type: ignore[no-untyped-call]  # the library says no type
 
     def _channel(self, topic: str, kind: str) -> int:
         if kind not in self._schemas:

@@ -2,6 +2,7 @@
 
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -133,7 +134,7 @@ def _order(key: Key, instrument: Instrument) -> tuple[str, int, int]:
 
 def _response(
     instrument: Instrument, item: str, value: float | str | None, file: Path
-) -> dict[str, object]:
+) -> dict[str, Any]:
     try:
         return response_fields(instrument.item(item), value, instrument.points)
     except ValueError as error:

@@ -170,7 +170,6 @@ def _course(
     scaled = tuple(bend._replace(start=bend.start * stretch, end=bend.end * stretch)
                    for bend in found)  # fmt: skip
     return Course(
-        schema=1,
         name=route.name,
         title=route.title or f"Course from the map {drawn.path.stem}",
         description=_description(drawn, route, walls),

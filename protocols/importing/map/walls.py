@@ -3,6 +3,7 @@
 import itertools
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import contourpy
 import numpy as np
@@ -55,7 +56,8 @@ def walls_around(floor: Floor, path: NDArray[np.float64], simplify: Simplificati
     kept = next((p for p in shapely.get_parts(simple) if p.covers(on_path)), None)
     if not isinstance(kept, shapely.Polygon):
         return None
-    furniture, holes = [], []
+    furniture: list[Furniture] = []
+    holes: list[shapely.LinearRing] = []
     for ring in kept.interiors:
         hole = shapely.Polygon(ring)
         if _is_slim(hole):
@@ -71,7 +73,7 @@ def walls_around(floor: Floor, path: NDArray[np.float64], simplify: Simplificati
     return Walls(kept, tuple(walls), tuple(furniture), (int(before), int(after)))
 
 
-def _outline(floor: Floor) -> shapely.MultiPolygon:
+def _outline(floor: Floor) -> shapely.Geometry:
     """Return the floor's cells as polygons with holes."""
     padded = np.pad(floor.free.astype(np.float64), 1)
     middles = (np.arange(-1, max(padded.shape)) + 0.5) * floor.cell
@@ -79,13 +81,13 @@ def _outline(floor: Floor) -> shapely.MultiPolygon:
         middles[: padded.shape[1]], middles[: padded.shape[0]], padded,
         fill_type=contourpy.FillType.OuterOffset,
     )  # fmt: skip
-    points, offsets = lines.filled(0.5, 2.0)
+    filled: Any = lines.filled(0.5, 2.0)
+    points, offsets = filled
     polygons = []
     for corners, starts in zip(points, offsets, strict=True):
         rings = [corners[a:b] for a, b in itertools.pairwise(starts)]
         polygons.append(shapely.Polygon(rings[0], rings[1:]))
-    made: shapely.MultiPolygon = shapely.make_valid(shapely.MultiPolygon(polygons))
-    return made
+    return shapely.make_valid(shapely.MultiPolygon(polygons))
 
 
 def _is_slim(hole: shapely.Polygon) -> bool:
