@@ -61,7 +61,7 @@ def _draw_map(axes: Axes, drawn: RosMap) -> None:
     shades[drawn.free] = _FREE
     shades[drawn.occupied] = _OCCUPIED
     every = max(1, max(shades.shape) // 2000)
-    rows, columns = len(shades), shades.shape[-1]
+    rows, columns = drawn.free.shape
     corners = np.array([[drawn.outward(x * drawn.cell, y * drawn.cell)
                          for x in range(0, columns + 1, every)]
                         for y in range(0, rows + 1, every)])  # fmt: skip
