@@ -77,6 +77,8 @@ def test_the_fields_own_checker_agrees(damage, exported, tmp_path):
     if damage is not None:
         damage(copied)
     command = [str(VALIDATOR), "-y", "--disable-color", "validate", "--offline", "--no-paging"]
+    if cache := os.environ.get("ROCRATE_CACHE"):
+        command += ["--cache-path", cache]
     ended = subprocess.run(  # noqa: S603  # a checker
         [*command, "-p", "ro-crate-1.2", str(copied)], capture_output=True, text=True, check=False
     )
