@@ -338,7 +338,7 @@ class _Cutting:
         arbitrated = executed if sampled.arbitrated is None else _command(sampled.arbitrated[i])
         control = condition.assistant if helped and condition.assistant != "none" else "driver"
         return Step(
-            before, x, intent, shown, answer, control, arbitrated, executed, after, age, None
+            before, x, intent, shown, answer, control, arbitrated, executed, after, age, None, {}
         )
 
     def _check_start(self, pose: NDArray[np.float64], where: str) -> None:
