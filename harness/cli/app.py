@@ -15,6 +15,8 @@ from typer.exceptions import TyperException
 from harness.cli import (
     check,
     check_part,
+    export,
+    imports,
     listing,
     live,
     recover,
@@ -70,6 +72,8 @@ app.command("live")(live.live)
 app.command("report")(report.report)
 app.command("reproduce")(reproduce.reproduce)
 app.command("replay")(replay.replay)
+app.command("export")(export.export)
+app.add_typer(imports.app, name="import")
 app.command("validate")(validate.validate)
 app.command("check")(check.check)
 app.command("check-part")(check_part.check_part)

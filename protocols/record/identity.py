@@ -21,6 +21,7 @@ _LATER: Mapping[str, Mapping[str, Any]] = {
         "debrief": None,
         "live": LiveSettings().model_dump(mode="json"),
     },
+    "consent": {"sharing": False},
     "lap": {"break_s": 0.0, "until_comfortable": False},
     "exclusion": {"max_late_share": None, "max_input_age_s": None, "max_interruptions": None},
     "item": {"answer": "point", "lowest": None, "highest": None},
@@ -69,6 +70,8 @@ def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
         del protocol[field]
     _leave_out_defaults(protocol, "protocol")
     _leave_out_defaults(protocol["exclusion"], "exclusion")
+    if "consent" in protocol:
+        _leave_out_defaults(protocol["consent"], "consent")
     for lap in protocol["laps"]:
         _leave_out_defaults(lap, "lap")
     instruments = [i.model_dump(mode="json", by_alias=True) for i in study.instruments]
