@@ -13,7 +13,7 @@ from typing import Self
 from harness.running.workers import Finished
 from protocols.record.store import write_session, write_timing, write_warnings
 
-AT_ONCE = 4
+AT_ONCE = 8
 """Sessions that are being written at a time: more of them only take memory."""
 
 
