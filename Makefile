@@ -3,7 +3,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 ALL_CORES := --numprocesses logical --maxprocesses 8 --dist worksteal
 
-.PHONY: study live test test-long check clean
+.PHONY: study live test test-long check bench clean
 
 study: $(VENV)/installed  ## Run the four-lap study with twelve synthetic participants, and report it
 	$(BIN)/lad-study run four-lap --out studies/four-lap-seed0
@@ -24,6 +24,9 @@ check: $(VENV)/installed-test
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+bench: $(VENV)/installed-test  ## Add this commit's costs to bench/history.csv, as ratios; one process
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python bench/history.py
 
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)

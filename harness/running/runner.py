@@ -8,6 +8,7 @@ from pathlib import Path
 from harness.running.open_workers import open_workers
 from harness.running.sessions import run_sessions, try_parts
 from harness.running.workers import Died, Failed, Finished
+from harness.running.writer import Writer
 from harness.session.study_run import StudyRun, portable
 from protocols.record.header import StudyHeader
 from protocols.record.rows import participant_id
@@ -23,9 +24,6 @@ from protocols.record.store import (
     write_death,
     write_failure,
     write_given_up,
-    write_session,
-    write_timing,
-    write_warnings,
 )
 
 Tell = Callable[[int, int], None]
@@ -145,31 +143,30 @@ def _write(
 ) -> int:
     """Write each session as it comes in; return how many finished."""
     finished = ended = 0
-    if tell:
-        tell(0)
-    for number, session in sessions:
-        name = participant_id(number)
-        if isinstance(session, Died) and session.retried:
-            write_death(out, name, session.reason)
-            continue
-        clear_failure(out, name)
-        if isinstance(session, Finished):
-            _keep(out, name, session)
-            finished += 1
-        elif isinstance(session, Failed):
-            write_failure(out, name, session.trace)
-        else:
-            write_given_up(out, name, session.reason)
-        ended += 1
-        if tell:
+    tell = tell or (lambda _: None)
+    tell(0)
+    with Writer(out) as writer:
+        for number, session in sessions:
+            name = participant_id(number)
+            if isinstance(session, Died) and session.retried:
+                write_death(out, name, session.reason)
+                continue
+            clear_failure(out, name)
+            if isinstance(session, Finished):
+                for _ in writer.write(name, session):
+                    finished, ended = finished + 1, ended + 1
+                    tell(ended)
+                continue
+            if isinstance(session, Failed):
+                write_failure(out, name, session.trace)
+            else:
+                write_given_up(out, name, session.reason)
+            ended += 1
+            tell(ended)
+        for _ in writer.wait():
+            finished, ended = finished + 1, ended + 1
             tell(ended)
     return finished
-
-
-def _keep(out: Path, name: str, session: Finished) -> None:
-    write_session(out, name, session.files)
-    write_timing(out, name, session.wall_s)
-    write_warnings(out, name, session.warned)
 
 
 def _outcome(run: StudyRun, out: Path, finished: int) -> Outcome:
