@@ -11,13 +11,16 @@ from analysis.comparisons import (
     item_comparisons,
     lap_time_comparisons,
 )
+from analysis.exclusion import without_the_rule
 from analysis.flow import Flow, participants_flow
 from analysis.frames import StudyFrames, study_frames
 from analysis.lap_records import LapRecords, read_laps
 from analysis.maps import participant_maps, plan_grid
+from analysis.place import with_place
 from analysis.practice import practice_table
 from analysis.randomness import generator
 from analysis.roles import first, reference_condition
+from analysis.stats.carry_over import carry_over
 from analysis.stats.map_overlap import map_overlap
 from analysis.stats.mixed_model import lap_time_model
 from analysis.stats.own_contrasts import own_contrasts
@@ -58,6 +61,11 @@ class StudyResults:
         Measures of every analysed lap, and its pooled steps.
     declared
         Comparisons the protocol declares.
+    without_rule
+        The same with those kept whom ``min_completed_laps`` excludes; empty where it excludes no
+        one.
+    carry_over
+        How much a condition changes the next lap; empty where the design does not identify it.
     lap_times
         Lap times of every two conditions, declared or not.
     model
@@ -78,6 +86,8 @@ class StudyResults:
     flow: Flow
     records: LapRecords
     declared: tuple[PairedComparison, ...]
+    without_rule: tuple[PairedComparison, ...]
+    carry_over: tuple[TestResult, ...]
     lap_times: tuple[PairedComparison, ...]
     model: tuple[TestResult, ...]
     contrasts: tuple[TestResult, ...]
@@ -111,6 +121,8 @@ def analyse(study: Study, progress: Progress | None = None) -> StudyResults:
         flow=participants_flow(frames),
         records=records,
         declared=declared_comparisons(frames),
+        without_rule=without_the_rule(frames),
+        carry_over=_carry_over(frames),
         lap_times=lap_times,
         model=model,
         contrasts=contrasts,
@@ -128,7 +140,13 @@ def _model(frames: StudyFrames) -> tuple[TestResult, ...]:
     reference = reference_condition(frames.parts)
     if reference is None:
         return ()
-    return lap_time_model(frames.laps, reference, generator(frames.study, "mixed model"))
+    laps = with_place(frames.laps)
+    return lap_time_model(laps, reference, generator(frames.study, "mixed model"))
+
+
+def _carry_over(frames: StudyFrames) -> tuple[TestResult, ...]:
+    reference = reference_condition(frames.parts)
+    return () if reference is None else carry_over(with_place(frames.laps), reference)
 
 
 def _contrasts(frames: StudyFrames) -> tuple[TestResult, ...]:
@@ -162,7 +180,7 @@ def _seen(
 
 
 def _survey(frames: StudyFrames, instrument: Instrument) -> SurveyResults:
-    items = [item.id for item in instrument.items]
+    items = [item.id for item in instrument.items if item.answer != "text"]
     return SurveyResults(
         instrument=instrument,
         table=survey_table(frames, instrument),

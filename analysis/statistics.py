@@ -32,6 +32,8 @@ def statistics_json(results: StudyResults) -> str:
         "not_read": (*results.frames.unread, *results.records.damaged),
         "gaps_in_steps": results.records.gaps,
         "declared_comparisons": results.declared,
+        "declared_without_exclusion": results.without_rule,
+        "carry_over": results.carry_over,
         "lap_times": results.lap_times,
         "mixed_model": results.model,
         "own_contrasts": results.contrasts,

@@ -7,7 +7,7 @@ from protocols.condition import Condition
 from protocols.declared import Comparison
 from protocols.files.fault import Fault, InconsistentError, Location
 from protocols.files.suggestion import allowed
-from protocols.laps import PlannedLap
+from protocols.laps import AskedInstrument, PlannedLap
 
 
 def check_consistency(
@@ -17,6 +17,7 @@ def check_consistency(
     *,
     cohort: Cohort,
     taught: bool = False,
+    survey: tuple[AskedInstrument, ...] = (),
 ) -> None:
     """Refuse a protocol whose parts contradict one another.
 
@@ -28,6 +29,8 @@ def check_consistency(
         Whether there is a demonstrator, and a respondent.
     taught
         Whether the model may have been taught before the study.
+    survey
+        What is asked after the last lap.
 
     Raises
     ------
@@ -36,6 +39,7 @@ def check_consistency(
     """
     faults = (
         *_absent_faults(conditions, laps, cohort),
+        *_session_survey_faults(survey, cohort),
         *_lap_faults(conditions, laps, taught),
         *_analysis_faults(conditions, laps, analyses),
     )
@@ -79,17 +83,23 @@ def _lap_faults(
             )
             yield Fault(("laps", i, "condition"), message)
         trained = trained or condition.training
-        yield from _repeated_instruments(i, lap)
+        yield from _repeated_instruments(("laps", i), lap.survey)
     if all(lap.practice for lap in laps):
         yield Fault(("laps",), "every lap is practice; at least one must not be")
 
 
-def _repeated_instruments(i: int, lap: PlannedLap) -> Iterator[Fault]:
+def _session_survey_faults(surveys: tuple[AskedInstrument, ...], cohort: Cohort) -> Iterator[Fault]:
+    if cohort.respondent is None and surveys:
+        yield Fault(("survey",), "nobody answers; allowed: no survey, or cohort.respondent")
+    yield from _repeated_instruments((), surveys)
+
+
+def _repeated_instruments(at: Location, surveys: tuple[AskedInstrument, ...]) -> Iterator[Fault]:
     asked: set[str] = set()
-    for j, survey in enumerate(lap.survey):
-        where: Location = ("laps", i, "survey", j)
+    for j, survey in enumerate(surveys):
+        where: Location = (*at, "survey", j)
         if survey.instrument in asked:
-            message = f"'{survey.instrument}' is asked twice after this lap; once is allowed"
+            message = f"'{survey.instrument}' is asked twice at one time; once is allowed"
             yield Fault((*where, "instrument"), message)
         asked.add(survey.instrument)
         items = survey.items if isinstance(survey.items, tuple) else ()

@@ -5,11 +5,12 @@ from pathlib import Path
 from protocols.course.drivable import undrivable
 from protocols.course.schema import Course
 from protocols.files.errors import InputError
-from protocols.files.fault import Fault
+from protocols.files.fault import Fault, Location
 from protocols.files.validation import validate
 from protocols.instrument import Instrument
+from protocols.laps import AskedInstrument
 from protocols.pages import Text
-from protocols.questions import laps_with_items, question_faults
+from protocols.questions import laps_with_items, question_faults, session_survey
 from protocols.resolved import ResolvedStudy
 from protocols.shipped import Source, locate, locate_text, shipped_names
 from protocols.study import StudyProtocol
@@ -165,20 +166,25 @@ def _with_texts(protocol: StudyProtocol, folder: Path | None) -> StudyProtocol:
 def _instruments(protocol: StudyProtocol, folder: Path | None) -> dict[str, Instrument]:
     """Return the instruments by what the protocol calls them."""
     found: dict[str, Instrument] = {}
-    for i, lap in enumerate(protocol.laps):
-        for j, survey in enumerate(lap.survey):
-            if survey.instrument in found:
-                continue
-            where = ("laps", i, "survey", j, "instrument")
-            try:
-                source = locate("instruments", survey.instrument, folder)
-            except InputError as error:
-                raise _ReferenceError(Fault(where, str(error))) from None
-            instrument = validate(source.document(), Instrument)
-            if instrument.name in (other.name for other in found.values()):
-                message = f"another instrument of this study is named '{instrument.name}' too"
-                raise _ReferenceError(Fault(where, message))
-            found[survey.instrument] = instrument
+    asked: list[tuple[Location, AskedInstrument]] = [
+        (("laps", i, "survey", j), survey)
+        for i, lap in enumerate(protocol.laps)
+        for j, survey in enumerate(lap.survey)
+    ]
+    asked += [(("survey", j), survey) for j, survey in enumerate(protocol.survey)]
+    for at, survey in asked:
+        if survey.instrument in found:
+            continue
+        where = (*at, "instrument")
+        try:
+            source = locate("instruments", survey.instrument, folder)
+        except InputError as error:
+            raise _ReferenceError(Fault(where, str(error))) from None
+        instrument = validate(source.document(), Instrument)
+        if instrument.name in (other.name for other in found.values()):
+            message = f"another instrument of this study is named '{instrument.name}' too"
+            raise _ReferenceError(Fault(where, message))
+        found[survey.instrument] = instrument
     return found
 
 
@@ -193,7 +199,8 @@ def _resolved(
     if participants is not None:
         cohort = cohort.model_copy(update={"participants": participants})
     laps = laps_with_items(protocol, instruments)
-    changes = {"course": course.name, "laps": laps, "cohort": cohort}
+    survey = session_survey(protocol, instruments)
+    changes = {"course": course.name, "laps": laps, "cohort": cohort, "survey": survey}
     return ResolvedStudy(
         protocol.model_copy(update=changes), course, tuple(instruments.values()), folder
     )

@@ -10,7 +10,7 @@ from protocols.condition import Condition
 from protocols.consistency import check_consistency
 from protocols.declared import Comparison, Exclusion
 from protocols.files.file_model import FileModel, Name, shipped_or_factory
-from protocols.laps import PlannedLap
+from protocols.laps import AskedInstrument, PlannedLap
 from protocols.pages import Consent, Particular, Text
 from protocols.shipped_parts import MODELS
 from protocols.start_noise import StartNoise
@@ -79,6 +79,8 @@ class StudyProtocol(FileModel):
         Shown, and agreed to, before anything else; null for none.
     demographics
         What participants are asked about themselves before the first lap.
+    survey
+        What is asked once, after the last lap, about the whole session.
     debrief
         Shown after everything else; null for none.
     """
@@ -100,12 +102,18 @@ class StudyProtocol(FileModel):
     hold_s: Annotated[float, Field(gt=0, le=5)] = 0.3
     consent: Consent | None = None
     demographics: tuple[Particular, ...] = ()
+    survey: tuple[AskedInstrument, ...] = ()
     debrief: Text | None = None
 
     @model_validator(mode="after")
     def _parts_agree(self) -> Self:
         taught = self.model.use not in MODELS  # what a model of one's own knows is not ours to say
         check_consistency(
-            self.conditions, self.laps, self.analyses, cohort=self.cohort, taught=taught
+            self.conditions,
+            self.laps,
+            self.analyses,
+            cohort=self.cohort,
+            taught=taught,
+            survey=self.survey,
         )
         return self

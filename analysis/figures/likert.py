@@ -26,7 +26,8 @@ def likert_figure(table: pd.DataFrame, instrument: Instrument) -> Figure:
     instrument
         The questionnaire: its scale and items.
     """
-    rows = table[table["answered"] > 0]
+    points = [f"n_{i}" for i in range(1, instrument.points + 1)]
+    rows = table[table[points].sum(axis=1) > 0]
     figure = new_figure(1.2 + 0.24 * len(rows) + 0.15 * sum(_words(rows).str.count("\n") + 2))
     if rows.empty:
         return say_nothing_to_show(figure, f"{instrument.title}: nothing was answered.")

@@ -18,6 +18,7 @@ def validate(
 
     Example: lad-study validate my-study.yaml
     """
+    from analysis.attainable import out_of_reach
     from protocols.course.schema import Course
     from protocols.load import check_file
     from protocols.resolved import ResolvedStudy
@@ -29,6 +30,8 @@ def validate(
             f"{file}: a protocol: {protocol.cohort.participants} participants, "
             f"{len(protocol.laps)} laps on {checked.course.name}"
         )
+        for warning in out_of_reach(protocol):
+            say(f"Caution: {warning}")
     else:
         kind = "course" if isinstance(checked, Course) else "questionnaire"
         say(f"{file}: a {kind}: {checked.title}")

@@ -127,7 +127,8 @@ def _respondent(run: StudyRun, number: int, person: Person) -> Respondent | None
     if choice is None:
         return None
     laps = laps_of(study.protocol, number, run.seed)
-    asked = (pair for planned in laps for pair in study.questions(planned))
+    asked = [pair for planned in laps for pair in study.questions(planned)]
+    asked += study.session_questions
     setup = RespondentSetup(
         questions=tuple(dict.fromkeys(question(*pair) for pair in asked)),
         rng=generator(run.seed, number, "respondent"),
@@ -148,4 +149,6 @@ def question(instrument: Instrument, item: Item) -> Question:
         answer=item.answer,
         lowest=item.lowest,
         highest=item.highest,
+        step=item.step,
+        ends=item.ends,
     )

@@ -1,6 +1,6 @@
 """One participant's visit, stage by stage."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from harness.session.arbitration import ARBITRATIONS
 from harness.session.clock import Clock, LapStoppedError, VirtualClock
@@ -22,7 +22,8 @@ from protocols.condition import Condition
 from protocols.course.centreline import Centreline
 from protocols.course.gates import GateCounter
 from protocols.exclusion import exclusion_reason
-from protocols.laps import PlannedLap
+from protocols.instrument import Instrument, Item
+from protocols.laps import WHOLE_SESSION, PlannedLap
 from protocols.record.rows import (
     ENDS_SESSION,
     LapRow,
@@ -120,9 +121,12 @@ class Session:
         if stage.lap is not None and stage.planned is not None and stage.kind == "lap":
             ending = self._drive(stage.lap, stage.planned)
             self._ended = ending.reason in ENDS_SESSION
-        elif stage.planned is not None and stage.kind == "questions":
-            if questions_follow(self._laps[-1].row.end_reason):
-                self._ask(stage.planned)
+        elif stage.kind == "questions":
+            if stage.planned is None:
+                self._ask(self._run.study.session_questions, -1, WHOLE_SESSION)
+            elif questions_follow(self._laps[-1].row.end_reason):
+                row = self._laps[-1].row
+                self._ask(self._run.study.questions(stage.planned), row.lap, row.condition)
         else:
             self._show(stage)
 
@@ -178,22 +182,21 @@ class Session:
         self._laps.append(RecordedLap(row, steps))
         return ending
 
-    def _ask(self, planned: PlannedLap) -> None:
-        """Ask what is asked after the last lap."""
-        questions = self._run.study.questions(planned)
-        respondent, row = self._parts.respondent, self._laps[-1].row
+    def _ask(self, questions: Sequence[tuple[Instrument, Item]], lap: int, condition: str) -> None:
+        """Ask what is asked about a lap, or after the last one about all of them."""
+        respondent = self._parts.respondent
         if respondent is None:
             return
-        rng = generator(self._run.seed, self._number, f"lap {row.lap}/survey")
+        rng = generator(self._run.seed, self._number, f"lap {lap}/survey")
         asked = [question(*pair) for pair in questions]
         answers = respondent.answer(asked, experience_of(self._laps), rng)
         if self._journal is not None:
             self._journal.answers(answers)
         self._answers += [
             SurveyRow(
-                participant=row.participant,
-                lap=row.lap,
-                condition=row.condition,
+                participant=participant_id(self._number),
+                lap=lap,
+                condition=condition,
                 instrument=instrument.name,
                 item=item.id,
                 **response_fields(item, answer, instrument.points),

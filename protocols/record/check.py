@@ -17,7 +17,12 @@ from protocols.record.merge import STUDY_TABLES, session_rows
 from protocols.record.parquet import parquet_shape, read_parquet
 from protocols.record.reader import off_scale, open_study
 from protocols.record.resume import resume_command
-from protocols.record.rows import participant_id, participant_number, questions_follow
+from protocols.record.rows import (
+    ENDS_SESSION,
+    participant_id,
+    participant_number,
+    questions_follow,
+)
 from protocols.record.session import (
     LAPS_FILE,
     MODEL_FILE,
@@ -201,6 +206,9 @@ def _survey_faults(
         if questions_follow(row["end_reason"]) and row["lap"] in planned
         for instrument, item in study.questions(planned[row["lap"]])
     ]
+    over = all(reason not in ENDS_SESSION for reason in laps["end_reason"].to_pylist())
+    if over and laps.num_rows == len(planned):
+        wanted += [(-1, i.name, item.id) for i, item in study.session_questions]
     if there != wanted:
         yield (
             f"{session / SURVEYS_FILE}: {len(there)} answers; the protocol asks {len(wanted)} "

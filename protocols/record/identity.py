@@ -13,9 +13,17 @@ _ABSENT = object()
 
 
 _LATER: Mapping[str, Mapping[str, Any]] = {
-    "protocol": {"hold_s": 0.3, "consent": None, "demographics": [], "debrief": None},
+    "protocol": {
+        "hold_s": 0.3,
+        "consent": None,
+        "demographics": [],
+        "survey": [],
+        "debrief": None,
+    },
     "lap": {"break_s": 0.0},
-    "item": {"answer": "point", "lowest": None, "highest": None},
+    "item": {"answer": "point", "lowest": None, "highest": None, "step": None, "ends": None},
+    "instrument": {"score": None},
+    "analysis": {"margin_reason": "", "unfinished": "complete pairs"},
 }
 """Fields that came after the first version, with their defaults. A study that does not use them
 is the study it was: its digest and its record stay the same."""
@@ -57,7 +65,11 @@ def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
     _leave_out_defaults(protocol, "protocol")
     for lap in protocol["laps"]:
         _leave_out_defaults(lap, "lap")
+    for analysis in protocol["analyses"]:
+        _leave_out_defaults(analysis, "analysis")
     instruments = [i.model_dump(mode="json", by_alias=True) for i in study.instruments]
+    for instrument in instruments:
+        _leave_out_defaults(instrument, "instrument")
     for item in (item for instrument in instruments for item in instrument["items"]):
         _leave_out_defaults(item, "item")
     return {

@@ -146,7 +146,7 @@ def response_fields(item: Item, answer: float | str | None, points: int) -> dict
     if item.answer == "number" and isinstance(answer, int | float):
         low = -math.inf if item.lowest is None else item.lowest
         high = math.inf if item.highest is None else item.highest
-        if low <= answer <= high and math.isfinite(answer):
+        if low <= answer <= high and math.isfinite(answer) and item.on_a_step(answer):
             return {"response_number": float(answer)}
     if item.answer == "point" and isinstance(answer, int) and 1 <= answer <= points:
         return {"response": int(answer)}

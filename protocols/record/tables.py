@@ -69,8 +69,8 @@ LAP_COLUMNS: tuple[Column, ...] = (
 
 SURVEY_COLUMNS: tuple[Column, ...] = (
     _ID,
-    Column("lap", pa.int16(), "Lap the answer is about"),
-    Column("condition", pa.string(), "Condition of that lap"),
+    Column("lap", pa.int16(), "Lap the answer is about; -1 for the whole session"),
+    Column("condition", pa.string(), "Condition of that lap; (session) for the whole session"),
     Column("instrument", pa.string(), "Instrument as the protocol names it"),
     Column("item", pa.string(), "Item of the instrument, e.g. Q7"),
     Column("response", pa.int8(), "Answer on the item's scale, as given (reverse-coded items are "
