@@ -75,7 +75,9 @@ def write_replay(
     steps = as_frame(study.steps(participant, lap))
     if len(steps) < 2:
         raise InputError(f"{study_dir}: {participant}, lap {lap}: too short to draw; needs 2 steps")
-    condition = study.protocol.laps[lap].condition if lap < len(study.protocol.laps) else "?"
+    laps = as_frame(study.laps)
+    driven = laps.loc[(laps["participant"] == participant) & (laps["lap"] == lap), "condition"]
+    condition = driven.iloc[0] if len(driven) else "?"
     title = f"{participant}, lap {lap}: {condition}"
     frames = _drawn(_Stage(study.course, steps, title), progress or (lambda _: None))
     try:

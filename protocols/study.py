@@ -4,34 +4,18 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from lad.hyperparameters import LADParameters
-from protocols.cohort import Cohort, Options
+from protocols.cohort import Cohort
 from protocols.condition import Condition
 from protocols.consistency import check_consistency
 from protocols.declared import Comparison, Exclusion
-from protocols.files.file_model import FileModel, Name, shipped_or_factory
+from protocols.files.file_model import FileModel, Name
+from protocols.groups import Group
 from protocols.laps import AskedInstrument, PlannedLap
+from protocols.model_choice import BorrowedModel, ModelChoice, Sha256
+from protocols.orders import Orders
 from protocols.pages import Consent, Particular, Text
 from protocols.shipped_parts import MODELS
 from protocols.start_noise import StartNoise
-
-
-class ModelChoice(FileModel):
-    """The assistant that learns; Table I of the paper is the default.
-
-    ``parameters`` are those of the shipped model, ``options`` those of somebody else's.
-    """
-
-    use: shipped_or_factory(*MODELS) = "lad"  # type: ignore[valid-type]
-    parameters: LADParameters = LADParameters()
-    options: Options = Field(default_factory=dict)
-
-    @model_validator(mode="after")
-    def _options_are_for_others(self) -> Self:
-        if self.use in MODELS and self.options:
-            raise ValueError("options are for a model of your own; lad takes parameters")
-        return self
-
 
 CasterName = Literal["sweep", "pybullet"]
 
@@ -66,6 +50,16 @@ class StudyProtocol(FileModel):
         Ways of driving a lap, by name.
     laps
         What a participant does, in order.
+    orders
+        In which orders participants drive the analysed laps; fixed by default.
+    groups
+        Groups of participants and what is different for them, by name; empty for none.
+    model
+        The model that a participant teaches: the conditions' model ``own``.
+    models
+        Models that others have taught, by the name that conditions give them.
+    registration
+        SHA-256 of the registration that the study follows; filled in by ``run --registration``.
     control_period_s
         Length of a control step, in s.
     laser
@@ -93,7 +87,10 @@ class StudyProtocol(FileModel):
     cohort: Cohort = Cohort()
     conditions: Annotated[dict[Name, Condition], Field(min_length=1)]
     laps: Annotated[tuple[PlannedLap, ...], Field(min_length=1, max_length=200)]
+    orders: Orders = Orders()
+    groups: dict[Name, Group] = Field(default_factory=dict)
     model: ModelChoice = ModelChoice()
+    models: dict[Name, BorrowedModel] = Field(default_factory=dict)
     exclusion: Exclusion = Exclusion()
     analyses: tuple[Comparison, ...] = ()
     control_period_s: Annotated[float, Field(ge=0.02, le=0.5)] = 0.1
@@ -104,6 +101,7 @@ class StudyProtocol(FileModel):
     demographics: tuple[Particular, ...] = ()
     survey: tuple[AskedInstrument, ...] = ()
     debrief: Text | None = None
+    registration: Sha256 | None = None
 
     @model_validator(mode="after")
     def _parts_agree(self) -> Self:
@@ -115,5 +113,8 @@ class StudyProtocol(FileModel):
             cohort=self.cohort,
             taught=taught,
             survey=self.survey,
+            orders=self.orders,
+            groups=self.groups,
+            models=self.models,
         )
         return self

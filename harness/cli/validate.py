@@ -19,6 +19,7 @@ def validate(
     Example: lad-study validate my-study.yaml
     """
     from analysis.attainable import out_of_reach
+    from protocols.balance import balance_in_words
     from protocols.course.schema import Course
     from protocols.load import check_file
     from protocols.resolved import ResolvedStudy
@@ -30,6 +31,8 @@ def validate(
             f"{file}: a protocol: {protocol.cohort.participants} participants, "
             f"{len(protocol.laps)} laps on {checked.course.name}"
         )
+        for sentence in balance_in_words(protocol):
+            say(f"Orders: {sentence}.")
         for warning in out_of_reach(protocol):
             say(f"Caution: {warning}")
     else:

@@ -1,10 +1,10 @@
 """Make sessions from their journals: what a living person did is not lost with a process."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from harness.running.sessions import world_of
-from harness.session.parts import make_parts
+from harness.session.borrowed import make_all_parts
 from harness.session.replay import replay
 from harness.session.study_run import StudyRun
 from protocols.files.errors import InputError
@@ -12,7 +12,13 @@ from protocols.record.header import read_header
 from protocols.record.journal import JOURNALS, read_journal
 from protocols.record.rows import participant_number
 from protocols.record.session import encode
-from protocols.record.store import build_tables, locked, whole_sessions, write_session
+from protocols.record.store import (
+    build_tables,
+    locked,
+    model_before,
+    whole_sessions,
+    write_session,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,5 +74,7 @@ def _recover(folder: Path, run: StudyRun, name: str) -> None:
     journal = read_journal(folder / JOURNALS / f"{name}.jsonl")
     if not number:
         raise InputError(f"{journal.path}: no participant is called {name!r}; allowed: P0001, ...")
-    record = replay(journal, run, number, world_of(run), make_parts(run, number))
+    world = world_of(run)
+    lent = replace(run, previous=model_before(folder, number))
+    record = replay(journal, run, number, world, make_all_parts(lent, number, world))
     write_session(folder, name, encode(record, run.digest), keep_damaged=True)

@@ -7,8 +7,9 @@ from pathlib import Path
 
 from harness.running.open_workers import open_workers
 from harness.running.sessions import run_sessions, try_parts
-from harness.running.workers import Died, Failed, Finished
+from harness.running.workers import Died, Failed, Finished, Workers
 from harness.session.study_run import StudyRun, portable
+from protocols.model_choice import borrows_from_previous
 from protocols.record.header import StudyHeader
 from protocols.record.rows import participant_id
 from protocols.record.store import (
@@ -17,6 +18,7 @@ from protocols.record.store import (
     failures,
     finished_sessions,
     locked,
+    model_before,
     open_folder,
     raised,
     refuse_another_study,
@@ -99,9 +101,24 @@ def run_study(
             missing = _missing(named, out, retry_failed=retry_failed)
             before = len(_planned(run)) - len(missing)
             counted = (lambda ended: tell(before + ended, len(_planned(run)))) if tell else None
-            finished = _write(out, run_sessions(workers, named, missing), counted)
+            finished = _write(out, _sessions(workers, named, missing, out), counted)
             build_tables(out, named.digest)
             return _outcome(named, out, finished)
+
+
+def _sessions(
+    workers: Workers, run: StudyRun, missing: list[int], out: Path
+) -> Iterator[tuple[int, Finished | Failed | Died]]:
+    """Run the missing sessions: one after the other where one needs the model of another.
+
+    The one before must be on disk before the next begins, so this must be read as it is written.
+    """
+    if not borrows_from_previous(run.study.protocol.models):
+        yield from run_sessions(workers, run, missing)
+        return
+    for number in sorted(missing):
+        lent = replace(run, previous=model_before(out, number))
+        yield from run_sessions(workers, lent, [number])
 
 
 def _complete(run: StudyRun, out: Path) -> Outcome:

@@ -7,8 +7,8 @@ from lad.assistant import Assistant
 from lad.lad_assistant import LADAssistant
 from participants.part_loader import load_factory, refuse_missing_methods
 from protocols.files.errors import InputError
+from protocols.model_choice import ModelChoice
 from protocols.shipped_parts import MODELS
-from protocols.study import ModelChoice
 
 
 def make_model(choice: ModelChoice, words: Mapping[str, str] | None = None) -> Assistant:

@@ -1,12 +1,13 @@
 """What takes part in one session: the person, and every part that the protocol names."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from harness.session.lap import LapParts
 from harness.session.model import make_model
 from harness.session.seeds import generator
-from harness.session.study_run import StudyRun
+from harness.session.study_run import StudyRun, of_one
 from lad.assistant import Assistant
 from participants.cohort import Person
 from participants.cohort import draw_person as drawn_from_cohort
@@ -16,6 +17,7 @@ from participants.pages import PageReader, SimulatedReader
 from participants.registry import make_demonstrator, make_driver, make_impaired, make_respondent
 from participants.setup import DemonstratorSetup, DriverSetup, ImpairmentSetup, RespondentSetup
 from participants.survey import Question, Respondent
+from protocols.groups import Group
 from protocols.instrument import Instrument, Item
 from protocols.order import laps_of
 from protocols.record.rows import participant_id
@@ -35,12 +37,15 @@ class SessionParts:
         Answers the questionnaires; None for a study without one.
     reader
         Reads the pages beside laps and questionnaires.
+    models
+        Models that others have taught, by the protocol's names for them.
     """
 
     person: Person
     lap: LapParts
     respondent: Respondent | None
     reader: PageReader
+    models: Mapping[str, Assistant] = field(default_factory=dict)
 
 
 def make_every_part(run: StudyRun) -> None:
@@ -53,8 +58,21 @@ def make_every_part(run: StudyRun) -> None:
     """
     person = draw_person(run, 1)
     make_parts(run, 1, person)
+    for group in run.study.protocol.groups.values():
+        _make_model_of(run, group)
     for impairment in run.study.protocol.cohort.impairments:
         make_parts(run, 1, replace(person, impairment=impairment))
+
+
+def _make_model_of(run: StudyRun, group: Group) -> None:
+    """Make what is different for a group, as in ``make_parts``."""
+    protocol = run.study.protocol
+    changes: dict[str, object] = {"model": group.model or protocol.model, "groups": {}}
+    if group.demonstrator is not None:
+        update = {"demonstrator": group.demonstrator}
+        changes["cohort"] = protocol.cohort.model_copy(update=update)
+    study = replace(run.study, protocol=protocol.model_copy(update=changes))
+    make_parts(replace(run, study=study), 1)
 
 
 def draw_person(run: StudyRun, number: int) -> Person:
@@ -77,6 +95,7 @@ def make_parts(run: StudyRun, number: int, person: Person | None = None) -> Sess
     InputError
         When a part that the protocol names cannot be made.
     """
+    run = of_one(run, number)
     whose = draw_person(run, number) if person is None else person
     return SessionParts(
         person=whose,

@@ -60,6 +60,7 @@ def replay(
         lap=LapParts(_Driver(entries, parts.lap.driver), demonstrator, parts.lap.model),
         respondent=None if parts.respondent is None else _Respondent(entries),
         reader=_Reader(entries),
+        models=parts.models,
     )
     session = Session(run, number, world, replayed, clock=_Clock(entries), journal=entries)
     try:

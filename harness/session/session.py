@@ -1,19 +1,20 @@
 """One participant's visit, stage by stage."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from harness.session.arbitration import ARBITRATIONS
 from harness.session.clock import Clock, LapStoppedError, VirtualClock
 from harness.session.experience import experience_of
 from harness.session.journal import Journal
-from harness.session.lap import Ending, Lap, Rules
+from harness.session.lap import Ending, Lap, LapParts, Rules
 from harness.session.lap_log import LapLog, summary
 from harness.session.limitation import right_turn_limit, unlimited
 from harness.session.model import basis_vectors, saved
 from harness.session.parts import SessionParts, question
 from harness.session.seeds import fingerprint, generator
 from harness.session.stages import Stage, StageKind, stages_of
-from harness.session.study_run import StudyRun
+from harness.session.study_run import StudyRun, of_one
 from harness.world.world import World
 from lad.assistant import Learner
 from participants.driver import WithdrewError, kind_of
@@ -24,6 +25,7 @@ from protocols.course.gates import GateCounter
 from protocols.exclusion import exclusion_reason
 from protocols.instrument import Instrument, Item
 from protocols.laps import WHOLE_SESSION, PlannedLap
+from protocols.order import group_of, in_words, places
 from protocols.record.rows import (
     ENDS_SESSION,
     LapRow,
@@ -72,11 +74,17 @@ class Session:
         clock: Clock | None = None,
         journal: Journal | None = None,
     ) -> None:
-        self._run, self._number, self._world = run, number, world
+        self._run, self._number, self._world = of_one(run, number), number, world
         self._parts, self._journal = parts, journal
         self._clock: Clock = VirtualClock() if clock is None else clock
         self._centreline = Centreline(run.study.course)
         self.stages = stages_of(run.study.protocol, number, run.seed)
+        self._planned = tuple(
+            stage.planned
+            for stage in self.stages
+            if stage.kind == "lap" and stage.planned is not None
+        )
+        self._places = places(self._planned)
         self.done = 0
         self._ended = False
         self._consented = True
@@ -153,9 +161,10 @@ class Session:
 
     def _drive(self, lap: int, planned: PlannedLap) -> Ending:
         """Drive one lap and keep its record."""
-        seed, number, parts = self._run.seed, self._number, self._parts.lap
+        seed, number = self._run.seed, self._number
         protocol = self._run.study.protocol
         condition = protocol.conditions[planned.condition]
+        parts = self._parts_with(condition.model)
         self._world.reset(generator(seed, number, f"lap {lap}/world"))
         parts.driver.start_lap(lap, generator(seed, number, f"lap {lap}/driver"))
         if parts.demonstrator is not None:
@@ -175,12 +184,18 @@ class Session:
             assistant=condition.assistant,
             training=condition.training and isinstance(parts.model, Learner),
             seed=fingerprint(seed, number, f"lap {lap}/world"),
+            place=self._places[lap],
             **summary(steps, ending, self._world.period),
             **log.pauses(),
             **basis_vectors(parts.model),
         )
         self._laps.append(RecordedLap(row, steps))
         return ending
+
+    def _parts_with(self, model: str) -> LapParts:
+        """Return what takes part in a lap, with the participant's own or a borrowed model."""
+        own = self._parts.lap
+        return own if model == "own" else replace(own, model=self._parts.models[model])
 
     def _ask(self, questions: Sequence[tuple[Instrument, Item]], lap: int, condition: str) -> None:
         """Ask what is asked about a lap, or after the last one about all of them."""
@@ -225,6 +240,8 @@ class Session:
             laps_driven=len(rows),
             excluded=reason is not None,
             exclusion_reason=reason,
+            order=in_words(self._planned),
+            group=group_of(protocol, self._number, self._run.seed),
         )
 
 

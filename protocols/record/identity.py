@@ -15,12 +15,17 @@ _ABSENT = object()
 _LATER: Mapping[str, Mapping[str, Any]] = {
     "protocol": {
         "hold_s": 0.3,
+        "orders": {"use": "fixed", "over": [], "before": [], "list": []},
+        "groups": {},
+        "models": {},
+        "registration": None,
         "consent": None,
         "demographics": [],
         "survey": [],
         "debrief": None,
     },
     "lap": {"break_s": 0.0},
+    "condition": {"model": "own"},
     "item": {"answer": "point", "lowest": None, "highest": None, "step": None, "ends": None},
     "instrument": {"score": None},
     "analysis": {"margin_reason": "", "unfinished": "complete pairs"},
@@ -65,6 +70,11 @@ def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
     _leave_out_defaults(protocol, "protocol")
     for lap in protocol["laps"]:
         _leave_out_defaults(lap, "lap")
+    for model in protocol.get("models", {}).values():
+        if model["sha256"] is not None:  # the model itself, wherever it lies
+            del model["path"]
+    for condition in protocol["conditions"].values():
+        _leave_out_defaults(condition, "condition")
     for analysis in protocol["analyses"]:
         _leave_out_defaults(analysis, "analysis")
     instruments = [i.model_dump(mode="json", by_alias=True) for i in study.instruments]

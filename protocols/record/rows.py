@@ -70,6 +70,8 @@ class ParticipantRow:
     laps_driven: int
     excluded: bool = False
     exclusion_reason: str | None = None
+    order: str | None = None
+    group: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -101,6 +103,7 @@ class LapRow:
     pauses: int | None = None
     paused_s: float | None = None
     last_segments: tuple[float, ...] | None = None
+    place: int | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
