@@ -66,7 +66,7 @@ def identity_differences(here: Mapping[str, Any], wanted: Mapping[str, Any]) -> 
 def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
     """Return everything a session depends on besides the participant's number, as plain data."""
     protocol = study.protocol.model_dump(mode="json", by_alias=True)
-    del protocol["cohort"]["participants"]
+    del protocol["cohort"]["participants"], protocol["cohort"]["expected_dropout"]
     _leave_out_defaults(protocol, "protocol")
     for lap in protocol["laps"]:
         _leave_out_defaults(lap, "lap")
