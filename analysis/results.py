@@ -14,11 +14,13 @@ from analysis.comparisons import (
 from analysis.exclusion import without_the_rule
 from analysis.flow import Flow, participants_flow
 from analysis.frames import StudyFrames, study_frames
+from analysis.groups import GroupResults, group_results
 from analysis.lap_records import LapRecords, read_laps
 from analysis.maps import participant_maps, plan_grid
 from analysis.place import with_place
 from analysis.practice import practice_table
 from analysis.randomness import generator
+from analysis.registration import Registered, registered_plan
 from analysis.roles import first, reference_condition
 from analysis.stats.carry_over import carry_over
 from analysis.stats.map_overlap import map_overlap
@@ -64,6 +66,10 @@ class StudyResults:
     without_rule
         The same with those kept whom ``min_completed_laps`` excludes; empty where it excludes no
         one.
+    groups
+        Groups of participants compared; None for a study without groups.
+    registered
+        What was registered against what was done; None for a study without a registration.
     carry_over
         How much a condition changes the next lap; empty where the design does not identify it.
     lap_times
@@ -88,6 +94,8 @@ class StudyResults:
     declared: tuple[PairedComparison, ...]
     without_rule: tuple[PairedComparison, ...]
     carry_over: tuple[TestResult, ...]
+    groups: GroupResults | None
+    registered: Registered | None
     lap_times: tuple[PairedComparison, ...]
     model: tuple[TestResult, ...]
     contrasts: tuple[TestResult, ...]
@@ -116,13 +124,16 @@ def analyse(study: Study, progress: Progress | None = None) -> StudyResults:
     model, contrasts = _model(frames), _contrasts(frames)
     surveys = tuple(_survey(frames, instrument) for instrument in study.instruments)
     measures = measure_table(frames, records)
+    declared = declared_comparisons(frames)
     return StudyResults(
         frames=frames,
         flow=participants_flow(frames),
         records=records,
-        declared=declared_comparisons(frames),
+        declared=declared,
         without_rule=without_the_rule(frames),
         carry_over=_carry_over(frames),
+        groups=group_results(frames),
+        registered=registered_plan(frames, declared),
         lap_times=lap_times,
         model=model,
         contrasts=contrasts,

@@ -34,6 +34,8 @@ def statistics_json(results: StudyResults) -> str:
         "declared_comparisons": results.declared,
         "declared_without_exclusion": results.without_rule,
         "carry_over": results.carry_over,
+        "groups": results.groups,
+        "registered": results.registered,
         "lap_times": results.lap_times,
         "mixed_model": results.model,
         "own_contrasts": results.contrasts,

@@ -124,9 +124,10 @@ def _figure(study: PowerStudy) -> Figure:
     for i, analysis in enumerate(study.protocol.analyses):
         rows = [r for r in study.rows if r.analysis == analysis.name]
         error = [math.hypot(r.mc_error, r.pool_error) for r in rows]
-        axes.errorbar([r.n for r in rows], [r.power for r in rows], yerr=error,
-                      fmt=styles[i % 4], capsize=2, markersize=4, label=analysis.name,
-                      markerfacecolor="white" if analysis.kind == "exploratory" else None)  # fmt: skip
+        face = "white" if analysis.kind == "exploratory" else None
+        axes.errorbar([r.n for r in rows], [r.power for r in rows], yerr=error, capsize=2,
+                      fmt=styles[i % 4], markersize=4, label=analysis.name,
+                      markerfacecolor=face)  # fmt: skip
     axes.axhline(study.target, color=GREY, linewidth=1, linestyle=":")
     axes.set_ylim(-0.02, 1.04)
     axes.set_xlabel("participants")

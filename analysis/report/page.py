@@ -7,6 +7,7 @@ from analysis.report.sections.against_paper import paper_section
 from analysis.report.sections.answer import answer_section
 from analysis.report.sections.comparisons import comparison_section
 from analysis.report.sections.data import data_section
+from analysis.report.sections.groups import group_section
 from analysis.report.sections.lap_times import lap_time_section
 from analysis.report.sections.maps import map_section
 from analysis.report.sections.measures import measure_section
@@ -14,15 +15,18 @@ from analysis.report.sections.methods import methods_section
 from analysis.report.sections.model import model_section
 from analysis.report.sections.people import people_section
 from analysis.report.sections.practice import practice_section
+from analysis.report.sections.registration import registration_section
 from analysis.report.sections.survey import survey_section
 from analysis.results import StudyResults
 
-SECTIONS: tuple[Callable[[StudyResults], Section], ...] = (
+SECTIONS: tuple[Callable[[StudyResults], Section | None], ...] = (
     answer_section,
+    registration_section,
     people_section,
     lap_time_section,
     comparison_section,
     practice_section,
+    group_section,
     map_section,
     measure_section,
     survey_section,
@@ -42,5 +46,5 @@ def build_page(results: StudyResults) -> Page:
         title=protocol.title,
         subtitle=f"Protocol {protocol.name}, course {study.course.name}{seed}; "
         f"{results.flow.analysed} of {results.flow.planned} participants analysed",
-        sections=tuple(section(results) for section in SECTIONS),
+        sections=tuple(s for s in (section(results) for section in SECTIONS) if s is not None),
     )

@@ -8,7 +8,18 @@ from typing import Annotated
 import typer
 from typer.exceptions import TyperException
 
-from harness.cli import check, listing, power, recover, replay, report, reproduce, run, validate
+from harness.cli import (
+    check,
+    listing,
+    power,
+    preregister,
+    recover,
+    replay,
+    report,
+    reproduce,
+    run,
+    validate,
+)
 from protocols.files.errors import InputError
 
 app = typer.Typer(
@@ -51,6 +62,7 @@ app.command("report")(report.report)
 app.command("reproduce")(reproduce.reproduce)
 app.command("replay")(replay.replay)
 app.command("power")(power.power)
+app.command("preregister")(preregister.preregister)
 app.command("validate")(validate.validate)
 app.command("check")(check.check)
 app.command("recover")(recover.recover)

@@ -34,6 +34,10 @@ def run(
     course: Annotated[
         str | None, typer.Option(help="Another course than the protocol's: a name or a file.")
     ] = None,
+    registration: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Follow this registration; another plan is refused."),
+    ] = None,
     retry_failed: Annotated[
         bool, typer.Option("--retry-failed", help="Run sessions again that failed before.")
     ] = False,
@@ -49,7 +53,15 @@ def run(
     check_least("--seed", seed, 0)
     check_least("--jobs", jobs, 1)
     folder, outcome = _run(
-        protocol, participants, seed, out, jobs, scheduler, course, retry_failed=retry_failed
+        protocol,
+        participants,
+        seed,
+        out,
+        jobs,
+        scheduler,
+        course,
+        registration=registration,
+        retry_failed=retry_failed,
     )
     if outcome.found:
         say(f"{outcome.found} of {outcome.planned} sessions were there already.")
@@ -71,6 +83,7 @@ def _run(
     scheduler: str | None,
     course: str | None,
     *,
+    registration: Path | None,
     retry_failed: bool,
 ) -> "tuple[Path, Outcome]":
     from harness.running.open_workers import warm_up_workers
@@ -83,6 +96,12 @@ def _run(
     from protocols.load import resolve_study
 
     study = resolve_study(protocol, course=course, participants=participants)
+    plan = None
+    if registration is not None:
+        from protocols.registration import copy_registration, read_registration, registered
+
+        plan = read_registration(registration)
+        study = registered(study, plan)
     folder = out or Path("studies") / f"{study.protocol.name}-seed{seed}"
     with counted_sessions() as tell:
         outcome = run_study(
@@ -93,6 +112,8 @@ def _run(
             scheduler=scheduler,
             retry_failed=retry_failed,
         )
+    if plan is not None:
+        copy_registration(plan, folder)
     return folder, outcome
 
 

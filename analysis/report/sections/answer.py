@@ -10,6 +10,7 @@ from analysis.outcomes import by_participant
 from analysis.practice import order_confounded, other_orders
 from analysis.report.blocks import Block, Caution, Fact, Facts, Paragraph, Picture, Section
 from analysis.report.numbers import count, interval, is_p, number, p_value, percent, plural
+from analysis.report.sections.registration import said_of
 from analysis.results import StudyResults
 from analysis.roles import reference_condition
 from analysis.stats.result import TestResult
@@ -19,6 +20,8 @@ def answer_section(results: StudyResults) -> Section:
     """Return the answers, each with its size and its certainty."""
     chosen = _chosen(results)
     blocks: list[Block] = []
+    if results.registered is not None:
+        blocks.append(Paragraph(said_of(results.registered)))
     if chosen:
         blocks.append(Facts(tuple(_fact(results, c) for c in chosen)))
         blocks += [Paragraph(_sentence(c)) for c in chosen]
