@@ -105,8 +105,19 @@ def _less_place(practice: Practice) -> str:
 
 
 def _wide(times: pd.DataFrame, laps: pd.DataFrame, condition: str, reference: str) -> pd.DataFrame:
-    wide = times.pivot_table(index="participant", columns="condition", values="value")
-    return wide.reindex(index=sorted(laps["participant"].unique()), columns=[condition, reference])
+    """Return each person's mean value in two conditions: participants by conditions."""
+    people = pd.Index(sorted(laps["participant"].unique()))
+    pair = pd.Index([condition, reference])
+    row, column = (
+        people.get_indexer(pd.Index(times["participant"])),
+        pair.get_indexer(pd.Index(times["condition"])),
+    )
+    used = column >= 0
+    sums, counts = np.zeros((2, len(people), 2))
+    np.add.at(sums, (row[used], column[used]), times["value"].to_numpy()[used])
+    np.add.at(counts, (row[used], column[used]), 1)
+    means = np.divide(sums, counts, out=np.full_like(sums, np.nan), where=counts > 0)
+    return pd.DataFrame(means, index=people, columns=pair)
 
 
 def _differences(

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 import pandas as pd
 
-from analysis.stats.mixed_model import indicator, lap_time_design
+from analysis.stats.mixed_model import lap_time_design, within_people
 
 Practice = Literal["balanced", "adjusted", "confounded"]
 """What is done about practice in a comparison: log times without their place's mean; the place as a
@@ -48,12 +48,18 @@ def imbalance(laps: pd.DataFrame, condition: str, reference: str) -> float:
     >>> imbalance(fixed, "y", "x"), imbalance(fixed.assign(place=[1, 2, 2, 1]), "y", "x")
     (1.0, 0.0)
     """
-    pair = laps[laps["condition"].isin([condition, reference])]
-    both = pair.groupby("participant")["condition"].transform("nunique") == 2
-    shares = pd.crosstab(pair.loc[both, "place"], pair.loc[both, "condition"], normalize="columns")
-    if shares.shape[1] < 2:
+    people, conditions = laps["participant"].to_numpy(), laps["condition"].to_numpy()
+    drove = [set(people[conditions == c]) for c in (condition, reference)]
+    both = np.isin(people, list(drove[0] & drove[1]))
+    if not both.any():
         return 1.0
-    return round(float((shares[condition] - shares[reference]).abs().sum() / 2), 10)
+    levels, place = np.unique(laps["place"].to_numpy(), return_inverse=True)
+    counts = [
+        np.bincount(place[both & (conditions == c)], minlength=len(levels))
+        for c in (condition, reference)
+    ]
+    shares = [count / count.sum() for count in counts]
+    return round(float(np.abs(shares[0] - shares[1]).sum() / 2), 10)
 
 
 def practice_of(laps: pd.DataFrame, condition: str, reference: str) -> Practice:
@@ -88,12 +94,10 @@ def without_place(laps: pd.DataFrame, log_time: pd.Series) -> pd.Series:
     design = lap_time_design(laps, reference)
     if not design.with_place:
         return log_time
-    people = sorted(laps["participant"].unique())[1:]
-    conditions = design.matrix[:, : 1 + len(design.contrasts)]
-    places = [indicator(laps["place"], p) for p in sorted(laps["place"].unique())]
-    centred = np.column_stack([c - c.mean() for c in places[1:]])
-    person = [indicator(laps["participant"], p) for p in people]
-    whole = np.column_stack([conditions, *person, centred])
-    effects = np.linalg.lstsq(whole, log_time.to_numpy(), rcond=None)[0]
-    adjusted: pd.Series = log_time - centred @ effects[-centred.shape[1] :]
+    first = 1 + len(design.contrasts)
+    places = design.matrix[:, first:]
+    columns = np.column_stack([design.matrix[:, 1:], log_time.to_numpy()])
+    within = within_people(columns, laps["participant"])
+    effects = np.linalg.lstsq(within[:, :-1], within[:, -1], rcond=None)[0][first - 1 :]
+    adjusted: pd.Series = log_time - (places - places.mean(axis=0)) @ effects
     return adjusted

@@ -90,7 +90,7 @@ def orders_table(pool: People, cohorts: int, seed: int) -> Iterator[str]:
     yield "|---|---|---|---|---|---|"
     sources: dict[str, Callable[[Rng, int], People]] = {
         "shipped": lambda r, n: without_effect(pool[r.permutation(len(pool))[:n]], r),
-        "symmetric": lambda r, n: symmetric_people(r, n),
+        "symmetric": symmetric_people,
     }
     for source, draw in sources.items():
         for name, orders in ORDERS.items():
@@ -165,7 +165,7 @@ def groups_table(cohorts: int, seed: int) -> Iterator[str]:
         person = rng.normal(4.2, 0.2, 6)
         y = np.repeat(person, 10) + rng.normal(0, 0.1, 60)
         x = np.column_stack([np.ones(60), np.repeat([0.0, 1.0] * 3, 10)])
-        found.append(_between(y, x, np.repeat(np.arange(6), 10), person))
+        found.append(_between(y, x, np.repeat(np.arange(6), 10)))
     yield f"| 2 x 3 people, 10 laps each | {' | '.join(map(share, np.transpose(found)))} |"
     found = []
     for _ in range(cohorts):
@@ -173,14 +173,14 @@ def groups_table(cohorts: int, seed: int) -> Iterator[str]:
         y = np.repeat(person, 4) + rng.normal(0, 0.12, 64)
         x = np.column_stack([np.ones(64), np.repeat([0.0, 1.0] * 8, 4)])
         keep = rng.random(64) > 0.1
-        found.append(_between(y[keep], x[keep], np.repeat(np.arange(16), 4)[keep], person))
+        found.append(_between(y[keep], x[keep], np.repeat(np.arange(16), 4)[keep]))
     yield (
         f"| 2 x 8 people, 4 laps each, a tenth missing | "
         f"{' | '.join(map(share, np.transpose(found)))} |"
     )
 
 
-def _between(y: np.ndarray, x: np.ndarray, people: np.ndarray, person: np.ndarray) -> list[bool]:
+def _between(y: np.ndarray, x: np.ndarray, people: np.ndarray) -> list[bool]:
     from scipy import stats  # noqa: PLC0415  # only here
 
     fit = fit_random_intercept(y, x, people)

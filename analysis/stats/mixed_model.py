@@ -65,7 +65,7 @@ def lap_time_design(laps: pd.DataFrame, reference: str) -> Design:
 
 def indicator(column: pd.Series, value: object) -> NDArray[np.float64]:
     """Return 1 where a column has a value, 0 elsewhere."""
-    return np.asarray(column == value, dtype=np.float64)
+    return np.asarray(column.to_numpy() == value, dtype=np.float64)
 
 
 def inflation(
@@ -77,14 +77,14 @@ def inflation(
     """
     if wider.shape == matrix.shape or matrix.shape[1] < 2:
         return math.inf
-    without, with_it = (_within(m[:, 1:], participants) for m in (matrix, wider))
+    without, with_it = (within_people(m[:, 1:], participants) for m in (matrix, wider))
     if np.linalg.matrix_rank(with_it) < with_it.shape[1]:
         return math.inf
     before, after = (np.diag(np.linalg.inv(m.T @ m)) for m in (without, with_it))
     return float((after[: len(before)] / before).max())
 
 
-def _within(matrix: NDArray[np.float64], participants: pd.Series) -> NDArray[np.float64]:
+def within_people(matrix: NDArray[np.float64], participants: pd.Series) -> NDArray[np.float64]:
     """Return what is left of each column within participants."""
     codes = pd.factorize(participants)[0]
     sums = np.zeros((codes.max() + 1, matrix.shape[1]))
