@@ -42,7 +42,11 @@ def balance_in_words(protocol: StudyProtocol) -> Iterator[str]:
             "are not quite even"
         )
     else:
-        yield f"a block of orders is {whole} participants: {n} make {n // whole} whole blocks"
+        yield f"a block of orders is {whole} participants: {n} make {_blocks(n // whole)}"
+
+
+def _blocks(count: int) -> str:
+    return "1 whole block" if count == 1 else f"{count} whole blocks"
 
 
 def _evenness(orders: tuple[Order, ...], moved: Order) -> str:
