@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 from analysis.attainable import smallest_p
+from analysis.estimands import ESTIMANDS
 from analysis.frames import StudyFrames
 from analysis.lap_time_test import LapTimeTest, lap_time_test
 from analysis.outcomes import UNITS, by_participant, outcome_of, values, wide_answers
@@ -24,7 +25,6 @@ from analysis.stats.ratio import mean_of_ratios, ratio_of_means
 from analysis.stats.result import TestResult
 from analysis.stats.signed_rank import signed_rank
 from analysis.stats.tost import paired_tost
-from analysis.unfinished import ESTIMANDS
 from protocols.declared import Comparison, Unfinished
 
 Kind = Literal["confirmatory", "exploratory"]

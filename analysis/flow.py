@@ -15,15 +15,18 @@ class Flow:
     Attributes
     ----------
     planned
-        As the protocol says, or as many as were recorded if that is more.
+        As the protocol says, or as many as were recorded if that is more; None where a study from
+        elsewhere does not say how many were planned.
     not_run, failed
         Planned sessions that were not begun, and sessions that broke off with an error.
     recorded
         Sessions with a record.
     refused
         Recorded participants without consent.
+    consent_unknown
+        Analysed participants of whom neither consent nor a refusal was recorded.
     excluded
-        Recorded participants with consent whom a rule excludes, by reason.
+        Recorded participants with consent who are excluded by a rule, by reason.
     analysed
         The rest.
     completed
@@ -32,17 +35,18 @@ class Flow:
         One row per condition: laps planned, not driven, unfinished by reason, finished, and how
         many of the finished ones have no lap time.
     withdrawals
-        One row per lap in which somebody left: participant, lap, condition, and why, in the
-        participant's words. Nobody who refused consent is in it.
+        One row per lap in which a participant left: participant, lap, condition, and why, in the
+        participant's words. Participants who refused consent are not in it.
     left_out
         What the tables hold that no analysis can use, in words; empty for our own studies.
     """
 
-    planned: int
+    planned: int | None
     not_run: int
     failed: int
     recorded: int
     refused: int
+    consent_unknown: int
     excluded: dict[str, int]
     analysed: int
     completed: int
@@ -52,19 +56,21 @@ class Flow:
 
 
 def participants_flow(frames: StudyFrames) -> Flow:
-    """Count everybody, at every stage."""
+    """Count the participants at every stage."""
     people = frames.everybody
     no = refused(people)
     out = excluded(people) & ~no
     reasons = people.loc[out, "exclusion_reason"].fillna("no reason recorded").value_counts()
     recorded, failed = len(people), len(frames.study.failed())
-    planned = max(frames.study.protocol.cohort.participants, recorded + failed)
+    declared = frames.study.header.planned_participants
+    planned = None if declared is None else max(declared, recorded + failed)
     return Flow(
         planned=planned,
-        not_run=planned - recorded - failed,
+        not_run=0 if planned is None else planned - recorded - failed,
         failed=failed,
         recorded=recorded,
         refused=int(no.sum()),
+        consent_unknown=int(frames.participants["consented"].isna().sum()),
         excluded={str(reason): int(n) for reason, n in sorted(reasons.items())},
         analysed=len(frames.participants),
         completed=_completed(frames),

@@ -8,11 +8,11 @@ import numpy as np
 import pandas as pd
 import pyarrow as pa
 
-from analysis.roles import Part, cast
+from analysis.exclusions import Exclusions, exclusions_of
+from analysis.roles import Part, condition_roles
 from protocols.files.errors import InputError
 from protocols.record.reader import Study, off_scale
 from protocols.record.tables import SURVEY_SCHEMA
-from protocols.study import StudyProtocol
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,11 +24,14 @@ class StudyFrames:
     study
         Where they come from.
     parts
-        The analysed conditions and their parts.
+        The analysed conditions and their roles.
     everybody
-        One row per participant, whether analysed or not.
+        One row per participant, whether analysed or not; excluded as recorded, else as the
+        protocol's rules have it.
+    exclusions
+        How it is known who is excluded.
     participants
-        One row per participant whom no rule excludes and who did not refuse consent.
+        One row per participant who is not excluded by a rule and did not refuse consent.
     laps
         Their laps in the analysed conditions, practice left out; finished or not. Only a finished
         one has a lap time.
@@ -36,7 +39,7 @@ class StudyFrames:
         Their answers, missing ones as NaN: one of each person to each item in each condition. Where
         a condition was driven more than once, the last answer given counts.
     answers
-        Everybody's answers as they were recorded; those off their scale as NaN.
+        The answers of all participants as they were recorded; those off their scale as NaN.
     unread
         What of the answers could not be read, in words.
     """
@@ -48,6 +51,7 @@ class StudyFrames:
     laps: pd.DataFrame
     surveys: pd.DataFrame
     answers: pd.DataFrame
+    exclusions: Exclusions
     unread: tuple[str, ...] = ()
 
     @property
@@ -56,8 +60,20 @@ class StudyFrames:
         return tuple(part.condition for part in self.parts)
 
     @property
+    def practised(self) -> bool:
+        """Whether any lap is practice."""
+        return bool(practised(as_frame(self.study.laps)).any())
+
+    @property
+    def by_place(self) -> pd.DataFrame:
+        """The laps with their places in the session for numbers, as models of time take them."""
+        numbers = as_frame(self.study.laps)["lap"].astype(int)
+        taken = places(numbers, len(self.study.protocol.laps))
+        return self.laps.assign(lap=self.laps["lap"].map(dict(zip(numbers, taken, strict=True))))
+
+    @property
     def synthetic(self) -> bool:
-        """Whether anybody who is analysed is a synthetic participant."""
+        """Whether any analysed participant is synthetic."""
         return bool((self.participants["kind"] == "synthetic").any())
 
 
@@ -72,14 +88,20 @@ def study_frames(study: Study, keep: Iterable[str] = ()) -> StudyFrames:
         Participants who are analysed although a rule excludes them: for an analysis that shows
         what the rule does.
     """
-    everybody = as_frame(study.participants)
+    all_laps = as_frame(study.laps)
+    exclusions = exclusions_of(study, all_laps[~practised(all_laps)])
+    everybody = as_frame(study.participants).assign(
+        excluded=exclusions.excluded, exclusion_reason=pd.Series(exclusions.reasons, dtype=object)
+    )
     out = excluded(everybody) & ~everybody["participant"].isin(list(keep))
     kept = everybody[~out & ~refused(everybody)]
-    parts = cast(study.protocol)
+    parts = condition_roles(study.protocol)
     laps = counted_laps(study, kept["participant"])
     laps = laps[laps["condition"].isin([part.condition for part in parts])]
     # Whatever stands there: a lap that was not finished has no lap time.
-    laps = laps.assign(lap_time_s=laps["lap_time_s"].where(laps["completed"].astype(bool)))
+    laps = laps.assign(
+        lap_time_s=laps["lap_time_s"].where(laps["completed"].astype(bool)),
+    )
     answers, unread = _answers(study)
     counted = counted_answers(study, answers, kept["participant"])
     return StudyFrames(
@@ -90,6 +112,7 @@ def study_frames(study: Study, keep: Iterable[str] = ()) -> StudyFrames:
         laps=laps.reset_index(drop=True),
         surveys=last_answers(counted).reset_index(drop=True),
         answers=answers,
+        exclusions=exclusions,
         unread=unread,
     )
 
@@ -97,7 +120,7 @@ def study_frames(study: Study, keep: Iterable[str] = ()) -> StudyFrames:
 def counted_laps(study: Study, participants: Iterable[str]) -> pd.DataFrame:
     """Return the laps of some people as they were recorded, practice laps left out."""
     laps = as_frame(study.laps)
-    return laps[laps["participant"].isin(list(participants)) & ~practised(laps, study.protocol)]
+    return laps[laps["participant"].isin(list(participants)) & ~practised(laps)]
 
 
 def counted_answers(
@@ -105,7 +128,7 @@ def counted_answers(
 ) -> pd.DataFrame:
     """Return some people's answers, those after practice left out."""
     laps = as_frame(study.laps)
-    practice = laps.loc[practised(laps, study.protocol), ["participant", "lap"]]
+    practice = laps.loc[practised(laps), ["participant", "lap"]]
     driven = pd.MultiIndex.from_frame(answers[["participant", "lap"]])
     after_practice = driven.isin(pd.MultiIndex.from_frame(practice))
     return answers[answers["participant"].isin(list(participants)) & ~after_practice]
@@ -136,13 +159,30 @@ def last_answers(answers: pd.DataFrame) -> pd.DataFrame:
     return answers.loc[in_order.drop_duplicates(asked, keep="last").index].sort_index()
 
 
-def practised(laps: pd.DataFrame, protocol: StudyProtocol) -> pd.Series:
-    """Return which laps are practice: as they say themselves, else as the protocol plans them."""
-    planned = {(i, lap.condition) for i, lap in enumerate(protocol.laps) if lap.practice}
-    placed = zip(laps["lap"], laps["condition"], strict=True)
-    as_planned = pd.Series([place in planned for place in placed], index=laps.index, dtype=bool)
-    practice: pd.Series = laps["practice"].astype("boolean").fillna(as_planned).astype(bool)
+def practised(laps: pd.DataFrame) -> pd.Series:
+    """Return which laps are practice; where they do not say so, the reader has filled it in."""
+    practice: pd.Series = laps["practice"].astype(bool)
     return practice
+
+
+def places(numbers: pd.Series, planned: int) -> pd.Series:
+    """Return each lap's place in the session: its number, or its rank where numbers leap.
+
+    Parameters
+    ----------
+    numbers
+        Of every lap of the study.
+    planned
+        How many laps are planned. Numbers beyond are no places: 10, 20, 30 are three laps.
+
+    Examples
+    --------
+    >>> places(pd.Series([10, 20, 10, 30]), 3).tolist()
+    [0, 1, 0, 2]
+    """
+    if numbers.max() <= planned:
+        return numbers
+    return numbers.rank(method="dense").astype(int) - 1
 
 
 def as_frame(table: pa.Table) -> pd.DataFrame:
@@ -153,12 +193,12 @@ def as_frame(table: pa.Table) -> pd.DataFrame:
 
 
 def excluded(participants: pd.DataFrame) -> pd.Series:
-    """Return whom the protocol's rules exclude."""
-    return participants["excluded"].fillna(value=False).astype(bool)
+    """Return who is excluded, of ``StudyFrames.everybody``."""
+    return participants["excluded"].astype(bool)
 
 
 def refused(participants: pd.DataFrame) -> pd.Series:
-    """Return who refused consent; a consent nobody recorded is not a refusal."""
+    """Return who refused consent; a consent that was not recorded is not a refusal."""
     consented: pd.Series = participants["consented"].fillna(value=True).astype(bool)
     return ~consented
 

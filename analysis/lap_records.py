@@ -11,6 +11,7 @@ from analysis.frames import StudyFrames, as_frame, within
 from analysis.measures.registry import MEASURES
 from analysis.measures.streams import Steps, gaps, helped, stream
 from protocols.files.errors import InputError
+from protocols.record.elsewhere.placement import Placement, said_of
 from protocols.record.reader import Study
 from protocols.record.steps import STEP_COLUMNS
 
@@ -20,7 +21,7 @@ POOLED = ("x_m", "y_m", "h_would", "p_help")
 
 @dataclass(frozen=True, slots=True)
 class LapRecords:
-    """What the steps of the analysed laps say.
+    """What follows from the steps of the analysed laps.
 
     Attributes
     ----------
@@ -37,6 +38,9 @@ class LapRecords:
         What cannot be used of steps that were recorded, in words, and in how many laps.
     damaged
         Step tables that cannot be read, and why, in words; their laps count as without steps.
+    misplaced
+        Laps whose positions are not on the course, and what they may be, in words; no map is drawn
+        from them.
     """
 
     measures: pd.DataFrame
@@ -45,18 +49,20 @@ class LapRecords:
     unrecorded: tuple[str, ...] = ()
     gaps: Mapping[str, int] = field(default_factory=dict)
     damaged: tuple[str, ...] = ()
+    misplaced: tuple[str, ...] = ()
 
 
 def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None) -> LapRecords:
     """Read the steps of every analysed lap once.
 
     A step table that cannot be read is named, and its lap kept as one without steps: the other
-    laps are not worth less for it.
+    laps can still be analysed.
     """
     rows, pooled = [], []
     unrecorded = [column.name for column in STEP_COLUMNS]
     found: Counter[str] = Counter()
     damaged: list[str] = []
+    elsewhere: list[Placement] = []
     laps = frames.laps
     keys = zip(laps["participant"], laps["lap"], laps["condition"], laps["completed"], strict=True)
     for done, (participant, lap, condition, completed) in enumerate(keys):
@@ -64,13 +70,15 @@ def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None
             progress(f"Measuring laps: {done} of {len(laps)}")
         where = {"participant": participant, "lap": lap, "condition": condition}
         try:
-            steps = _steps(frames.study, participant, lap)
+            steps, remarks, placement = _steps(frames.study, participant, lap)
         except InputError as error:
             damaged.append(within(frames.study, error))
             steps = pd.DataFrame()
         if len(steps):
-            found.update(gaps(steps))
-            pooled.append(_kept(steps, participant, lap, condition))
+            found.update((*remarks, *gaps(steps)))
+            if not placement.on_course:
+                elsewhere.append(placement)
+            pooled.append(_kept(steps, participant, lap, condition, placement))
             unrecorded = [name for name in unrecorded if steps[name].isna().all()]
         measured = {m.name: m.of(steps) for m in MEASURES} if len(steps) else {}
         rows.append({**where, "completed": bool(completed), **measured})
@@ -86,19 +94,31 @@ def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None
         unrecorded=tuple(unrecorded) if pooled else (),
         gaps=dict(sorted(found.items())),
         damaged=tuple(damaged),
+        misplaced=tuple(said_of(elsewhere)),
     )
 
 
-def _steps(study: Study, participant: str, lap: int) -> Steps:
-    """Return a lap's steps; an empty frame when they were not recorded."""
+def _steps(study: Study, participant: str, lap: int) -> tuple[Steps, tuple[str, ...], Placement]:
+    """Return a lap's steps and what was found about them; an empty frame without a record.
+
+    Distances between positions that are not in metres are no distances: those are left out.
+    """
     if not study.has_steps(participant, lap):
-        return pd.DataFrame()
-    return as_frame(study.steps(participant, lap))
+        return pd.DataFrame(), (), Placement(on_course=True)
+    table, remarks, placement = study.lap_steps(participant, lap)
+    steps = as_frame(table)
+    if not (placement.on_course or placement.metres):
+        steps = steps.assign(x_m=np.nan, y_m=np.nan)
+    return steps, remarks, placement
 
 
-def _kept(steps: Steps, participant: str, lap: int, condition: str) -> pd.DataFrame:
+def _kept(
+    steps: Steps, participant: str, lap: int, condition: str, placement: Placement
+) -> pd.DataFrame:
     on = helped(steps)
     unknown = np.full(len(steps), np.nan)
+    if not placement.on_course:
+        steps = steps.assign(x_m=np.nan, y_m=np.nan)
     return pd.DataFrame(
         {
             "participant": participant,

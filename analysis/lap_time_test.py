@@ -7,13 +7,13 @@ import numpy as np
 import pandas as pd
 
 from analysis.attainable import smallest_p
+from analysis.estimands import timed_laps, worst_differences
 from analysis.frames import StudyFrames
 from analysis.place import Practice, practice_of, with_place, without_place
 from analysis.randomness import generator
 from analysis.stats.mixed_model import lap_time_model
 from analysis.stats.result import TestResult
 from analysis.stats.signed_rank import signed_rank
-from analysis.unfinished import timed_laps, worst_differences
 from protocols.declared import Unfinished
 
 

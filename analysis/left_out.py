@@ -1,4 +1,4 @@
-"""What a study's tables hold that no analysis can use: tables made elsewhere may."""
+"""Values in a study's tables that no analysis can use; tables of other programs may have some."""
 
 from collections.abc import Iterator
 
@@ -6,6 +6,7 @@ import pandas as pd
 
 from analysis.frames import StudyFrames, as_frame, counted_answers, counted_laps
 from protocols.laps import WHOLE_SESSION
+from protocols.record.elsewhere.people import strangers
 
 
 def left_out(frames: StudyFrames) -> tuple[str, ...]:
@@ -13,7 +14,7 @@ def left_out(frames: StudyFrames) -> tuple[str, ...]:
 
     Practice laps are not named: that they are not analysed is the protocol's choice.
     """
-    return (*_laps(frames), *_answers(frames))
+    return (*_laps(frames), *_answers(frames), *frames.study.strays)
 
 
 def _laps(frames: StudyFrames) -> Iterator[str]:
@@ -45,9 +46,9 @@ def _answers(frames: StudyFrames) -> Iterator[str]:
 
 
 def _strangers(frames: StudyFrames, rows: pd.DataFrame, what: str) -> Iterator[str]:
-    n = int((~rows["participant"].isin(frames.everybody["participant"])).sum())
+    n, names = strangers(rows["participant"], frames.everybody["participant"])
     if n:
-        yield f"{_number(n, what)} of people who are not in the table of participants"
+        yield f"{_number(n, what)} of people who are not in the table of participants ({names})"
 
 
 def _conditions(frames: StudyFrames, rows: pd.DataFrame, what: str) -> Iterator[str]:

@@ -46,7 +46,7 @@ def plan_grid(course: Course) -> Grid:
 
 
 def counts(x: NDArray[np.float64], y: NDArray[np.float64], grid: Grid) -> NDArray[np.float64]:
-    """Return how many points lie in each cell, shape of the grid."""
+    """Return how many points are in each cell, shape of the grid."""
     histogram, _, _ = np.histogram2d(y, x, bins=(grid.y, grid.x))
     return histogram
 
@@ -74,9 +74,9 @@ def participant_maps(
     steps
         One row per step of one condition: participant, x_m, y_m, helped.
     participants
-        The rows, in order; who was never helped is a row of zeros.
+        The rows, in order; a participant who was never helped is a row of zeros.
     grid
-        Cells of the plan.
+        Cells of the floor plan.
     """
     helped = steps[steps["helped"] == 1]
     maps = np.zeros((len(participants), math.prod(grid.shape)))

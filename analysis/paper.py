@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from analysis.roles import Part
+from analysis.roles import Part, condition_roles
 from protocols.study import StudyProtocol
 
 
@@ -15,22 +15,22 @@ class PaperFigure:
     value, unit
         As printed.
     section
-        Where it stands.
-    says
+        The section of the paper.
+    meaning
         What it is.
-    doubt
+    remark
         What does not add up about it; "" when nothing is wrong.
     """
 
     value: float
     unit: str
     section: str
-    says: str
-    doubt: str = ""
+    meaning: str
+    remark: str = ""
 
 
-def _lap(value: float, section: str, says: str, doubt: str = "") -> PaperFigure:
-    return PaperFigure(value, "s", section, says, doubt)
+def _lap(value: float, section: str, meaning: str, remark: str = "") -> PaperFigure:
+    return PaperFigure(value, "s", section, meaning, remark)
 
 
 PAPER: dict[str, PaperFigure] = {
@@ -84,13 +84,15 @@ PAPER: dict[str, PaperFigure] = {
         63, "%", "V.C", "liked having the assistance",
         "63% of 11 only by truncation: 7 of 11 is 63.6%"),
 }  # fmt: skip
-"""By key: whose laps / the condition's part (a model with its demonstrations) / the quantity."""
+"""By key: driver / role of the condition (a model with its demonstrations) / quantity."""
 
 
 def paper_figure(protocol: StudyProtocol, part: Part, quantity: str) -> PaperFigure | None:
     """Return what the paper prints for a condition's quantity; None when it prints nothing.
 
-    Studies with autonomous drivers are set against section IV, others against section V.
+    Only a study that says it replicates the paper is set against it: those with autonomous drivers
+    against section IV, others against section V. Of conditions that play the same part, the first
+    one is the paper's.
 
     Parameters
     ----------
@@ -103,12 +105,22 @@ def paper_figure(protocol: StudyProtocol, part: Part, quantity: str) -> PaperFig
 
     Examples
     --------
-    >>> from analysis.roles import cast
+    >>> from analysis.roles import condition_roles
     >>> from protocols.load import load_protocol
     >>> study = load_protocol("four-lap")
-    >>> paper_figure(study, cast(study)[3], "mean").value
+    >>> paper_figure(study, condition_roles(study)[3], "mean").value
     56.1
     """
+    if protocol.replicates is None or not _first_of_its_part(protocol, part):
+        return None
     whose = "robot" if protocol.cohort.driver.use == "autonomous" else "people"
-    role = f"model-{part.demonstrations}" if part.role == "model" else part.role
-    return PAPER.get(f"{whose}/{role}/{quantity}")
+    return PAPER.get(f"{whose}/{_key(part)}/{quantity}")
+
+
+def _first_of_its_part(protocol: StudyProtocol, part: Part) -> bool:
+    alike = (other for other in condition_roles(protocol) if _key(other) == _key(part))
+    return next(alike, part).condition == part.condition
+
+
+def _key(part: Part) -> str:
+    return f"model-{part.demonstrations}" if part.role == "model" else part.role

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from analysis.frames import StudyFrames
+from analysis.order import part_of
 from analysis.place import with_place
 from analysis.roles import reference_condition
 from analysis.stats.mixed_model import lap_time_design
@@ -19,7 +20,7 @@ PLAUSIBLE = (0.0, 2.5, 5.0, 10.0, 15.0, 20.0)
 
 def order_confounded(frames: StudyFrames) -> bool:
     """Tell whether the lap's place in the session follows from its condition, or nearly so."""
-    timed = frames.laps.dropna(subset=["lap_time_s"])
+    timed = frames.by_place.dropna(subset=["lap_time_s"])
     reference = reference_condition(frames.parts)
     if reference is None or timed["condition"].nunique() < 2:
         return False
@@ -27,21 +28,16 @@ def order_confounded(frames: StudyFrames) -> bool:
 
 
 def other_orders(frames: StudyFrames) -> tuple[int, int]:
-    """Return how many participants drove the conditions in another order than most, and of whom.
+    """Return how many participants drove the conditions in another order than most, and of all.
 
-    Who left out laps of the common order has not driven another one.
+    A participant who left out laps of the common order has not driven another order.
     """
     laps = frames.laps.sort_values("lap")
     orders = [tuple(own["condition"]) for _, own in laps.groupby("participant", sort=True)]
     if not orders:
         return 0, 0
     ((common, _),) = Counter(orders).most_common(1)
-    return sum(not _part_of(order, common) for order in orders), len(orders)
-
-
-def _part_of(order: tuple[str, ...], whole: tuple[str, ...]) -> bool:
-    left = iter(whole)
-    return all(condition in left for condition in order)
+    return sum(not part_of(order, common) for order in orders), len(orders)
 
 
 def practice_table(frames: StudyFrames, model: Sequence[TestResult]) -> pd.DataFrame:
@@ -54,8 +50,8 @@ def practice_table(frames: StudyFrames, model: Sequence[TestResult]) -> pd.DataF
     frames
         The study.
     model
-        The contrasts, against the yardstick, as ``lap_time_model`` or ``own_contrasts`` return
-        them; those without an interval are left out.
+        The contrasts, against the reference condition, as ``lap_time_model`` or ``own_contrasts``
+        return them; those without an interval are left out.
 
     Returns
     -------
@@ -70,10 +66,10 @@ def practice_table(frames: StudyFrames, model: Sequence[TestResult]) -> pd.DataF
                "ratio_high", "explains_percent", "explains_all_percent"]  # fmt: skip
     rows: list[dict[str, object]] = []
     if order_confounded(frames):
-        places = frames.laps.groupby("condition")["lap"].mean()
+        places = frames.by_place.groupby("condition")["lap"].mean()
         for contrast in model:
             condition, _, reference = contrast.name.partition(" against ")
-            if math.isfinite(contrast.low):  # without an interval there is none to shift
+            if math.isfinite(contrast.low):  # a contrast without an interval cannot be shifted
                 apart = float(places[condition] - places[reference])
                 rows += _rows(contrast, condition, reference, apart)
     return pd.DataFrame(rows, columns=columns)

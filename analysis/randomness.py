@@ -1,4 +1,4 @@
-"""Generators of the analysis: one per purpose, so that adding one does not move the others."""
+"""Generators of the analysis: one per purpose, so that adding one does not change the others."""
 
 import zlib
 

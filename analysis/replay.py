@@ -1,7 +1,8 @@
-"""A recorded lap as a moving picture: nothing is simulated again."""
+"""A recorded lap as an animated picture, without another simulation."""
 
 import io
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 import pandas as pd
+import pyarrow.compute as pc
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
@@ -19,20 +21,23 @@ from PIL import Image
 
 from analysis.figures.plan import draw_plan
 from analysis.figures.style import BLACK, BLUE, GREEN, GREY, SKY, VERMILLION, tidy
+from analysis.figures.text import literal_text, wrapped
 from analysis.frames import as_frame
-from analysis.measures.streams import Numbers, Steps, period, stream
+from analysis.measures.streams import Numbers, Steps, stream
 from lad.inputs import N_SEGMENTS
 from protocols.course.schema import Course
 from protocols.files.errors import InputError
 from protocols.record.atomic import write_whole
-from protocols.record.reader import open_study
+from protocols.record.reader import Study, open_study
 from protocols.wheelchair import FRONT, LASER_AHEAD, REAR, WIDTH
 
-EVERY = 2
-"""Steps per frame."""
+FRAME_S = 0.1
+"""How long a frame is shown, s. Browsers show one of less than 0.02 s for 0.1 s."""
 
 SPEED = 2.0
-"""How much faster than life the picture moves."""
+"""How many times faster than real time the picture moves."""
+
+_FRAME_APART = SPEED * FRAME_S
 
 DPI = 80
 CONTROL = {"driver": GREY, "demonstrator": BLUE, "model": GREEN}
@@ -54,11 +59,11 @@ def write_replay(
     study_dir
         The study directory.
     participant, lap
-        Whose lap, and which, counted from 0.
+        The participant's id, and the lap, counted from 0.
     out
         The file to write; replaced when it exists, never left half-written.
     progress
-        Told in a few words what is being done.
+        Called with a few words about what is being done.
 
     Raises
     ------
@@ -72,18 +77,67 @@ def write_replay(
     if not out.parent.is_dir():
         raise InputError(f"{out}: cannot be written: {out.parent}: no such folder")
     study = open_study(Path(study_dir))
-    steps = as_frame(study.steps(participant, lap))
+    table, _, placement = study.lap_steps(participant, lap, against_lap=False)
+    steps = as_frame(table)
     if len(steps) < 2:
         raise InputError(f"{study_dir}: {participant}, lap {lap}: too short to draw; needs 2 steps")
-    laps = as_frame(study.laps)
-    driven = laps.loc[(laps["participant"] == participant) & (laps["lap"] == lap), "condition"]
-    condition = driven.iloc[0] if len(driven) else "?"
-    title = f"{participant}, lap {lap}: {condition}"
-    frames = _drawn(_Stage(study.course, steps, title), progress or (lambda _: None))
+    shown = shown_steps(stream(steps, "t_s"))
+    if shown is None:
+        raise InputError(
+            f"{study_dir}: {participant}, lap {lap}: its steps have no times that go on; a replay "
+            "needs them"
+        )
+    title = wrapped(f"{participant}, lap {lap}: {_condition(study, participant, lap)}", 60, lines=4)
+    if not placement.on_course:
+        title += "\n(its positions do not fit the course)"
+    with literal_text():
+        stage = _Stage(study.course, steps, title)
+        frames = _drawn(stage, list(shown), progress or (lambda _: None))
     try:
-        write_whole(out, _gif(frames, EVERY * period(steps) / SPEED))
+        write_whole(out, _gif(frames, list(shown.values())))
     except OSError as error:
         raise InputError(f"{out}: cannot be written: {error.strerror}") from None
+
+
+def shown_steps(t: Numbers) -> dict[int, int] | None:
+    """Return the steps to be shown, and for how many frames, so that time runs at ``SPEED``.
+
+    Parameters
+    ----------
+    t
+        Times of the steps, s, shape (n,); NaN where missing, not always increasing.
+
+    Returns
+    -------
+    dict[int, int] or None
+        By step, the number of frames: in each the last step that had begun when its time came, and
+        the lap's last one at the end; None when time does not go on.
+
+    Examples
+    --------
+    >>> shown_steps(np.arange(0, 1.0, 0.1))
+    {0: 1, 2: 1, 4: 1, 6: 1, 8: 1, 9: 1}
+    >>> shown_steps(np.array([0.0, 0.1, 0.8]))
+    {0: 1, 1: 3, 2: 1}
+    """
+    known = np.flatnonzero(np.isfinite(t))
+    if len(known) < 2 or not t[known].max() > t[known[0]]:
+        return None
+    latest = np.maximum.accumulate(t[known])
+    times = latest[0] + _FRAME_APART * np.arange(int((latest[-1] - latest[0]) / _FRAME_APART) + 1)
+    # A step that begins at a frame's time is shown in it, whatever the last digit of either.
+    at = np.searchsorted(latest, times + 1e-6, side="right") - 1
+    shown = Counter(int(i) for i in known[at])
+    shown.setdefault(int(known[-1]), 1)
+    return dict(sorted(shown.items()))
+
+
+def _condition(study: Study, participant: str, lap: int) -> str:
+    """Return a lap's condition as it was recorded; ? when the lap has no row."""
+    laps = study.laps
+    rows = pc.and_(pc.equal(laps["participant"], participant), pc.equal(laps["lap"], lap))
+    found = laps.filter(rows)["condition"].to_pylist()
+    return found[0] if found else "?"
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,11 +148,11 @@ class _Moving:
     chair: Polygon
     laser: LineCollection
     clock: Line2D
-    said: mpl.text.Text
+    label: mpl.text.Text
 
 
 class _Stage:
-    """The figure of one lap, drawn once; only what moves is drawn again."""
+    """The figure of one lap, drawn once; only the moving artists are drawn again."""
 
     def __init__(self, course: Course, steps: Steps, title: str) -> None:
         self.steps = steps
@@ -126,9 +180,9 @@ class _Stage:
 
     @property
     def artists(self) -> tuple[mpl.artist.Artist, ...]:
-        """What moves, from the bottom up."""
+        """The moving artists, from the bottom up."""
         m = self.moving
-        return m.laser, m.trail, m.chair, m.clock, m.said
+        return m.laser, m.trail, m.chair, m.clock, m.label
 
     def frame(self, i: int) -> Image.Image:
         """Return the picture at step i."""
@@ -138,7 +192,7 @@ class _Stage:
         m.chair.set_xy(_footprint(self._xy[i], self._heading[i]))
         m.laser.set_segments(_rays(self._xy[i], self._heading[i], self._beams[i]))
         m.clock.set_xdata([t, t])
-        m.said.set_text(f"{t:5.1f} s")
+        m.label.set_text(f"{t:5.1f} s")
         self.canvas.restore_region(self._background)
         for artist in self.artists:
             artist.axes.draw_artist(artist)  # type: ignore[union-attr]  # all of them have axes
@@ -152,9 +206,9 @@ def _movers(plan: Axes, chart: Axes) -> _Moving:
     plan.add_collection(laser, autolim=False)
     plan.add_collection(trail, autolim=False)
     plan.add_patch(chair)
-    said = plan.text(0.01, 0.01, "", transform=plan.transAxes, fontsize=10, family="monospace")
+    label = plan.text(0.01, 0.01, "", transform=plan.transAxes, fontsize=10, family="monospace")
     clock = chart.axvline(0, color=VERMILLION, linewidth=1.2)
-    return _Moving(trail, chair, laser, clock, said)
+    return _Moving(trail, chair, laser, clock, label)
 
 
 def _legend(axes: Axes, steps: pd.DataFrame) -> None:
@@ -174,7 +228,7 @@ def _chart(axes: Axes, steps: Steps) -> None:
     else:
         axes.text(0.5, 0.5, "no model in this lap", transform=axes.transAxes, ha="center",
                   va="center", fontsize=9, color=GREY)  # fmt: skip
-    axes.set_xlim(0, t[-1])
+    axes.set_xlim(min(0.0, float(np.nanmin(t))), float(np.nanmax(t)))
     axes.set_ylim(-0.02, 1.02)
     axes.set_xlabel("t / s", fontsize=9)
     axes.set_ylabel("p(h)", fontsize=9)
@@ -201,9 +255,7 @@ def _rays(at: Numbers, heading: float, ranges: Numbers) -> list[Numbers]:
     return [np.stack([start, end]) for end in _turned(mount + ends[seen], at, heading)]
 
 
-def _drawn(stage: _Stage, tell: Callable[[str], None]) -> list[Image.Image]:
-    last = len(stage.steps) - 1
-    shown = sorted({*range(0, last + 1, EVERY), last})
+def _drawn(stage: _Stage, shown: Sequence[int], tell: Callable[[str], None]) -> list[Image.Image]:
     frames = []
     for done, i in enumerate(shown):
         if done % 25 == 0:
@@ -212,13 +264,17 @@ def _drawn(stage: _Stage, tell: Callable[[str], None]) -> list[Image.Image]:
     return frames
 
 
-def _gif(frames: list[Image.Image], seconds: float) -> bytes:
-    """Return the frames as an endless GIF with one palette, so that little changes per frame."""
+def _gif(frames: list[Image.Image], lasting: list[int]) -> bytes:
+    """Return the frames as an endless GIF with one palette, so that little changes per frame.
+
+    Each lasts for so many times ``FRAME_S``; the format counts hundredths of a second, 65535 at
+    most.
+    """
     palette = _palette(frames[len(frames) // 2])
     flat = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
     stream_ = io.BytesIO()
     flat[0].save(stream_, "GIF", save_all=True, append_images=flat[1:], loop=0, optimize=False,
-                 duration=round(1000 * seconds))  # fmt: skip
+                 duration=[min(round(1000 * FRAME_S * n), 655_350) for n in lasting])  # fmt: skip
     return stream_.getvalue()
 
 

@@ -11,12 +11,12 @@ from analysis.comparisons import (
     item_comparisons,
     lap_time_comparisons,
 )
-from analysis.exclusion import without_the_rule
 from analysis.flow import Flow, participants_flow
 from analysis.frames import StudyFrames, study_frames
 from analysis.groups import GroupResults, group_results
 from analysis.lap_records import LapRecords, read_laps
 from analysis.maps import participant_maps, plan_grid
+from analysis.outcome_exclusion import without_the_rule
 from analysis.place import with_place
 from analysis.practice import practice_table
 from analysis.randomness import generator
@@ -33,6 +33,7 @@ from analysis.tables.reliability import reliability_table
 from analysis.tables.scales import scale_table
 from analysis.tables.sections import section_table
 from analysis.tables.survey import survey_table
+from analysis.unfinished import NobodyFinished, nobody_finished
 from protocols.instrument import Instrument
 from protocols.record.reader import Study
 
@@ -61,6 +62,8 @@ class StudyResults:
         Who took part and who is analysed.
     records
         Measures of every analysed lap, and its pooled steps.
+    unfinished
+        Conditions in which nobody finished a lap.
     declared
         Comparisons the protocol declares.
     without_rule
@@ -75,13 +78,13 @@ class StudyResults:
     lap_times
         Lap times of every two conditions, declared or not.
     model
-        Mixed model of log lap times: every condition against the yardstick.
+        Mixed model of log lap times: every condition against the reference condition.
     contrasts
         The same contrasts from each participant's own laps, each with its own spread.
     practice
-        What is left of the model's contrasts under plausible practice; see ``analysis.practice``.
+        What remains of the model's contrasts under plausible practice; see ``analysis.practice``.
     overlap
-        Demonstrator's and model's assistance maps compared; None where there are not both.
+        Demonstrator's and model's assistance maps compared; None unless there are both.
     surveys
         One per instrument.
     measures, sections, reliability, paper
@@ -91,6 +94,7 @@ class StudyResults:
     frames: StudyFrames
     flow: Flow
     records: LapRecords
+    unfinished: tuple[NobodyFinished, ...]
     declared: tuple[PairedComparison, ...]
     without_rule: tuple[PairedComparison, ...]
     carry_over: tuple[TestResult, ...]
@@ -129,6 +133,7 @@ def analyse(study: Study, progress: Progress | None = None) -> StudyResults:
         frames=frames,
         flow=participants_flow(frames),
         records=records,
+        unfinished=nobody_finished(study),
         declared=declared,
         without_rule=without_the_rule(frames),
         carry_over=_carry_over(frames),
@@ -162,7 +167,7 @@ def _carry_over(frames: StudyFrames) -> tuple[TestResult, ...]:
 
 def _contrasts(frames: StudyFrames) -> tuple[TestResult, ...]:
     reference = reference_condition(frames.parts)
-    return () if reference is None else own_contrasts(frames.laps, reference)
+    return () if reference is None else own_contrasts(frames.by_place, reference)
 
 
 def _overlap(frames: StudyFrames, records: LapRecords) -> TestResult | None:
@@ -184,7 +189,7 @@ def _overlap(frames: StudyFrames, records: LapRecords) -> TestResult | None:
 def _seen(
     steps: pd.DataFrame, people: Sequence[str], conditions: Iterable[str | None]
 ) -> list[str]:
-    """Return of whom it is known, in every condition, where they were and whether helped."""
+    """Return the participants with known position and assistance in every condition."""
     known = steps[steps[["helped", "x_m", "y_m"]].notna().all(axis=1)]
     there = [set(known.loc[known["condition"] == c, "participant"].unique()) for c in conditions]
     return [who for who in people if all(who in place for place in there)]

@@ -1,4 +1,4 @@
-"""What part each condition plays in a study: full control, limited, or helped, and by whom."""
+"""The role of each condition in a study: full control, limited, or helped by which assistant."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -10,7 +10,7 @@ Role = Literal["baseline", "limited", "demonstrator", "model"]
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A condition and its part.
+    """A condition and its role in the study.
 
     Attributes
     ----------
@@ -32,17 +32,17 @@ class Part:
 
     @property
     def taught(self) -> bool:
-        """Whether the model has been shown something before or during the condition's laps."""
+        """Whether the model has learnt something before or during the condition's laps."""
         return self.training or self.demonstrations > 0
 
 
-def cast(protocol: StudyProtocol) -> tuple[Part, ...]:
-    """Return the analysed conditions with their parts, in the order of their first lap.
+def condition_roles(protocol: StudyProtocol) -> tuple[Part, ...]:
+    """Return the analysed conditions with their roles, in the order of their first lap.
 
     Examples
     --------
     >>> from protocols.load import load_protocol
-    >>> [part.role for part in cast(load_protocol("four-lap"))]
+    >>> [part.role for part in condition_roles(load_protocol("four-lap"))]
     ['baseline', 'limited', 'demonstrator', 'model']
     """
     parts: dict[str, Part] = {}
@@ -63,7 +63,7 @@ def _training_laps(protocol: StudyProtocol) -> int:
 
 
 def first(parts: tuple[Part, ...], role: Role) -> str | None:
-    """Return the first condition that plays a part; None when none does."""
+    """Return the first condition with a role; None when there is none."""
     return next((part.condition for part in parts if part.role == role), None)
 
 

@@ -1,4 +1,4 @@
-"""The statistics as JSON: for a reader who wants to compute on."""
+"""The statistics as JSON, for further computation."""
 
 import json
 import math
@@ -28,9 +28,13 @@ def statistics_json(results: StudyResults) -> str:
             "recording": recording_versions(study),
         },
         "flow": results.flow,
+        "nobody_finished": results.unfinished,
         "laps_without_steps": results.records.without_steps,
         "not_read": (*results.frames.unread, *results.records.damaged),
         "gaps_in_steps": results.records.gaps,
+        "misplaced": results.records.misplaced,
+        "repaired": study.remarks,
+        "exclusions": results.frames.exclusions.remarks,
         "declared_comparisons": results.declared,
         "declared_without_exclusion": results.without_rule,
         "carry_over": results.carry_over,

@@ -1,68 +1,110 @@
-"""What an unfinished lap counts as in a comparison of lap times: the estimand."""
+"""Conditions in which no lap was finished, and the likely reason."""
 
-from typing import get_args
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
 
-import numpy as np
 import pandas as pd
 
-from analysis.frames import StudyFrames
-from protocols.declared import Unfinished
+from analysis.frames import as_frame
+from protocols.laps import PlannedLap
+from protocols.record.reader import Study
 
-ESTIMANDS: tuple[Unfinished, ...] = get_args(Unfinished)
+MOSTLY = 0.5
+"""Share of laps, or of a lap's time, from which a reason is that of most."""
 
 
-def timed_laps(frames: StudyFrames, unfinished: Unfinished) -> pd.DataFrame:
-    """Return the analysed laps with the lap time that the estimand gives them.
+@dataclass(frozen=True, slots=True)
+class NobodyFinished:
+    """A condition of which laps were begun, and none was finished.
 
-    Parameters
+    Attributes
     ----------
-    frames
-        The study.
-    unfinished
-        ``complete pairs``: an unfinished lap has no time; ``limit``: a lap that ran into its time
-        limit took that long; ``worst rank``: it has no time, and ``worst`` says that it is slower
-        than every finished one.
-
-    Returns
-    -------
-    DataFrame
-        The laps, with ``worst``. Laps that ended in another way than by their time limit have no
-        time under any estimand: nobody knows what they would have taken.
-    """
-    laps = frames.laps
-    over = (laps["end_reason"] == "time_limit") & ~laps["completed"].astype(bool)
-    if unfinished == "limit":
-        limits = {p.condition: p.time_limit_s for p in frames.study.protocol.laps}
-        limit = laps["condition"].map(limits).astype("float64")
-        capped = laps["lap_time_s"].clip(upper=limit)
-        return laps.assign(lap_time_s=capped.where(~over, limit), worst=False)
-    return laps.assign(worst=over if unfinished == "worst rank" else False)
-
-
-def worst_differences(
-    differences: pd.Series, laps: pd.DataFrame, condition: str, reference: str
-) -> pd.Series:
-    """Return differences in which an unfinished lap is slower than every finished one.
-
-    Parameters
-    ----------
-    differences
-        By participant, condition minus reference; missing where a lap has no time.
+    condition
+        Its name.
     laps
-        participant, condition and ``worst``.
-
-    Returns
-    -------
-    Series
-        A pair with one unfinished lap differs by more than every other pair; one with two does not
-        differ. Only their signs and ranks mean something.
+        How many were begun.
+    reason
+        What the record says, and the likely reason, in words.
     """
-    worst = laps.pivot_table(index="participant", columns="condition", values="worst",
-                             aggfunc="max", observed=False)  # fmt: skip
-    worst = worst.reindex(index=differences.index, columns=[condition, reference])
-    driven = worst.notna().all(axis=1)
-    sign = worst[condition].astype(float).fillna(0) - worst[reference].astype(float).fillna(0)
-    either = driven & worst.fillna(value=False).astype(bool).any(axis=1)
-    finite = differences.abs().max()
-    beyond = 2 * (finite if np.isfinite(finite) and finite > 0 else 1.0)
-    return differences.where(~either, sign * beyond)
+
+    condition: str
+    laps: int
+    reason: str
+
+    @property
+    def sentence(self) -> str:
+        """The whole, in words."""
+        return f"Nobody finished a lap of {self.condition} ({self.laps} begun): {self.reason}."
+
+
+def nobody_finished(study: Study) -> tuple[NobodyFinished, ...]:
+    """Return the conditions, practised ones too, in which no participant finished a lap.
+
+    In the order of the plan; those of which no lap was begun are not among them.
+    """
+    laps = as_frame(study.laps)
+    planned: dict[str, PlannedLap] = {}
+    for lap in study.protocol.laps:
+        planned.setdefault(lap.condition, lap)
+    fastest = laps.loc[laps["completed"].astype(bool), "lap_time_s"].min()
+    found = []
+    for condition, plan in planned.items():
+        own = laps[laps["condition"] == condition]
+        if len(own) and not own["completed"].astype(bool).any():
+            reason = "; ".join(_reasons(study, own, plan, float(fastest)))
+            found.append(NobodyFinished(condition, len(own), reason))
+    return tuple(found)
+
+
+def _reasons(study: Study, laps: pd.DataFrame, plan: PlannedLap, fastest: float) -> Iterator[str]:
+    ends = Counter(laps["end_reason"].dropna())
+    if not ends:
+        yield "why they ended was not recorded"
+        return
+    yield ", ".join(f"{n} ended by {_END.get(end, str(end))}" for end, n in ends.most_common())
+    if ends["time_limit"] > MOSTLY * len(laps):
+        limit = f"the time limit of {plan.time_limit_s:g} s"
+        if fastest > plan.time_limit_s:
+            yield (
+                f"likely {limit} is too short: the fastest lap of another condition took "
+                f"{fastest:.0f} s"
+            )
+            return
+        yield from _gates(study, laps, limit)
+    yield from _contact(laps)
+
+
+_END = {
+    "time_limit": "the time limit",
+    "withdrew": "a withdrawal",
+    "stopped": "being stopped",
+    "disconnected": "a lost connection",
+    "interrupted": "the end of the program",
+}
+
+
+def _gates(study: Study, laps: pd.DataFrame, limit: str) -> Iterator[str]:
+    """Say how far they came: a gate that none of them passed may be out of the chair's reach."""
+    passed = pd.to_numeric(laps["gates_passed"]).dropna()
+    gates = study.course.gates
+    if passed.empty:
+        return
+    most = int(passed.max())
+    if most >= len(gates):
+        return
+    if (passed == most).mean() > MOSTLY and most < len(gates) - 1:
+        yield (
+            f"{int((passed == most).sum())} of {len(laps)} passed {most} of {len(gates)} gates and "
+            f"none came to {gates[most].name}: likely the way there is closed to the chair, or too "
+            "hard to drive (`lad-study validate` looks at the course)"
+        )
+    else:
+        yield f"they passed up to {most} of {len(gates)} gates: likely {limit} is too short"
+
+
+def _contact(laps: pd.DataFrame) -> Iterator[str]:
+    touching = pd.to_numeric(laps["contact_time_s"]) / pd.to_numeric(laps["duration_s"])
+    share = float(touching.median())
+    if share > MOSTLY / 5:
+        yield f"the chair touched an obstacle for {100 * share:.0f}% of a lap: likely it was stuck"

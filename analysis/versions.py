@@ -1,4 +1,4 @@
-"""Which software computed an analysis, and which one recorded what it is about."""
+"""Which software computed an analysis, and which recorded its study."""
 
 from dataclasses import dataclass
 
@@ -17,7 +17,7 @@ ANALYSIS_PACKAGES = (
 
 
 def analysis_versions() -> dict[str, str]:
-    """Return the versions of Python and of the packages that the analysis stands on."""
+    """Return the versions of Python and of the packages that the analysis uses."""
     return package_versions(ANALYSIS_PACKAGES)
 
 
@@ -32,7 +32,7 @@ class Recording:
 def recording_versions(study: Study) -> tuple[Recording, ...]:
     """Return the sets of versions that recorded a study, one for most studies.
 
-    Tables made elsewhere have no sessions that could say; the study's head may.
+    Tables of other programs have no sessions with versions; the study's head may have them.
     """
     recorded = tuple(Recording(*used) for used in study.sessions_by_versions)
     return recorded or (Recording(study.header.versions, None),)

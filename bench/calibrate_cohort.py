@@ -2,7 +2,7 @@
 
     python bench/calibrate_cohort.py                  solve the grid, about an hour
     python bench/calibrate_cohort.py --check 5050     drive the shipped cohort's laps and compare
-    python bench/calibrate_cohort.py --keep DIR       keep driven laps, go on after a break
+    python bench/calibrate_cohort.py --keep DIR       keep driven laps, resume after a break
 
 Baseline and limited laps of people of every kind teach an emulator what lap time follows from
 which traits; with it the calibrated traits' medians and spreads are solved for, in every cell of

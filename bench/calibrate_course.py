@@ -63,7 +63,7 @@ COURSE_TRIALS, PACE_TRIALS = 14, 4
 """Courses and paces tried at most: the search ends in the noise of the means, about 0.1 s."""
 
 ENOUGH = 0.05
-"""Objectives nearer to each other than this are not told apart, s."""
+"""Objectives nearer to each other than this count as equal, s."""
 
 
 def shipped() -> Candidate:
@@ -119,8 +119,8 @@ def deviations(
     paper = np.array([PAPER[condition] for condition in conditions])
     found = times.mean(axis=0) - paper
     means = zip(conditions, paper + found, found, strict=True)
-    said = ", ".join(f"{name} {mean:.2f} ({off:+.2f})" for name, mean, off in means)
-    print(f"{_text(candidate)}: {said}; objective {objective(found):.3f} s", flush=True)
+    listed = ", ".join(f"{name} {mean:.2f} ({off:+.2f})" for name, mean, off in means)
+    print(f"{_text(candidate)}: {listed}; objective {objective(found):.3f} s", flush=True)
     return found
 
 

@@ -156,7 +156,7 @@ def read(path: Path) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
 
 
 def check(path: Path) -> bool:
-    """Check one file, print its lines, and say whether everything held."""
+    """Check one file, print its lines, and return whether all comparisons hold."""
     tolerance = tolerance_of(path.name)
     header, arrays = read(path)
     runs = [prefix for prefix in prefixes(arrays) if prefix != FOR_COMPARISON_ONLY]
@@ -180,7 +180,7 @@ def check(path: Path) -> bool:
             f"  probability {found.probability:.1e}  novelty {found.novelty:.1e}"
             f"  mismatched events {found.events}, deletions {found.deletions},"
             f" sizes {found.sizes}, final basis vectors {found.basis} ({allowed})"
-            f"  {'MISSED: ' + ', '.join(missed) if missed else 'held'}"
+            f"  {'MISSED: ' + ', '.join(missed) if missed else 'met'}"
         )
     return good
 

@@ -86,7 +86,7 @@ Factory = Callable[[Course, int, int], Simulator]
 
 
 def find_simulators() -> dict[str, Factory]:
-    """Return those simulators that are installed; say which are not."""
+    """Return those simulators that are installed; print which are not."""
     found = {}
     for name, where in SIMULATORS.items():
         module, _, factory = where.partition(":")

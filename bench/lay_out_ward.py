@@ -35,7 +35,7 @@ HALF_WIDTH = 1.05
 THICKNESS = 0.1
 SCREEN_TO_PATH = 0.8
 """Screens reach from the inside of a sharp turn this close to the centreline, m, as on the default
-course: whoever cut the corner would leave the centreline, and with it the section, behind."""
+course: a chair that cuts the corner would leave the centreline, and with it the section, behind."""
 
 FINISH_LEFT = 1.45
 """From the centreline to the finish's left post, in the open day room, m."""

@@ -1,11 +1,11 @@
-"""Predict the assisted laps over the declared grid, and say where the paper falls.
+"""Predict the assisted laps over the declared grid, and report where the paper's figures are.
 
     python bench/predict_cohort.py                        2,400 people a cell: half a day and more
     python bench/predict_cohort.py --people 396 --jobs 2 --centre STUDY   what docs/cohort.md
                                 shows, more than an hour; STUDY is a four-lap study of 1,000
 
 A cell's people (bench/cohort/cells.json) drive the shipped study, all five laps through the
-session everybody's laps go through. 200 studies of twelve are drawn from them. With 2,400 people
+session that all laps go through. 200 studies of twelve are drawn from them. With 2,400 people
 the studies could be 200 different dozens; with fewer, they share people, and intervals come out
 slightly too narrow.
 """
@@ -27,7 +27,7 @@ from cohort.studies import CONDITIONS, PUBLISHED, as_far_out, draw_studies, pred
 STUDIES, SIZE, SEED = 200, 12, 1
 
 FULL = 2400
-"""People a cell with whom no two studies need share anybody."""
+"""People per cell with which no two studies need to share a person."""
 
 
 def main() -> int:
@@ -46,8 +46,8 @@ def main() -> int:
     asked = list(cells())[: 1 if options.only_centre else None]
     if options.centre:
         rows += report(asked.pop(0), laps_of_study(options.centre))
-    crew = joblib.Parallel(n_jobs=options.jobs, return_as="generator", pre_dispatch=options.jobs)
-    pools = crew(
+    workers = joblib.Parallel(n_jobs=options.jobs, return_as="generator", pre_dispatch=options.jobs)
+    pools = workers(
         joblib.delayed(laps_of)(
             cell,
             solved[cell],
@@ -72,7 +72,7 @@ def report(cell: Cell, laps: pd.DataFrame) -> list[dict[str, object]]:
     print(f"\n{cell.name}: {len(times)} people; unfinished laps: {ends or 'none'}")
     print(f"limited lap slowest for {slowest.mean():.0%} of those with all four laps")
     pool = ", ".join(f"{c} {times[c].mean():.1f} ({times[c].std():.1f})" for c in CONDITIONS)
-    print(f"everybody: {pool}")
+    print(f"all people: {pool}")
     print("| figure | median of studies | 95% of studies | published | studies below it |")
     print("|---|---:|---:|---:|---:|")
     rows = []

@@ -4,7 +4,7 @@
 With the basis set full at m vectors, 19 inputs and two outputs, on a stream with centimetres of
 lidar noise, one thread. Each learning operation is timed with its prediction. Implementations
 take turns, so that whatever else the machine does meets them alike; medians are reported.
-``dsymv`` and ``dsyr`` of the same size are the yardstick: one pass over a triangle each.
+``dsymv`` and ``dsyr`` of the same size are the reference: one pass over a triangle each.
 """
 
 import os
@@ -176,7 +176,7 @@ def _size(process: StorkGP | PlainStorkGP | BlasStorkGP) -> int:
 
 
 def _counts(implementation: str, operation: str, update: object, process: object, m: int) -> bool:
-    """Say whether the step was the operation, and not a deletion of the sample just added."""
+    """Return whether the step was the operation, and not a deletion of the sample just added."""
     if update.kind != KINDS[operation]:
         return False
     if operation != "full+delete":
@@ -249,7 +249,7 @@ def measure(steps: dict[str, Step], rounds: int) -> dict[str, float]:
 
 
 def peers() -> dict[str, Peer]:
-    """Name the peers that are installed, and say which are not."""
+    """Return the peers that are installed, and print which are not."""
     found = {}
     for name, module, make in (
         ("sklearn", "sklearn", sklearn_steps),
@@ -328,7 +328,7 @@ def verdict(rows: list[Row]) -> str:
         ("exponent of growth from m = 200 to 800, tau = 4", growth, 2.0),
     ]
     return "\n".join(
-        f"{what}: {value:.2f} (at most {most:g}): {'held' if value <= most else 'MISSED'}"
+        f"{what}: {value:.2f} (at most {most:g}): {'met' if value <= most else 'MISSED'}"
         for what, value, most in lines
     )
 

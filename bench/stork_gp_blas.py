@@ -96,7 +96,7 @@ class BlasStorkGP:
         self.n += 1
 
     def _replace(self, e: np.ndarray, gamma: float, q: np.ndarray, r: float) -> int:
-        """Full update, then deletion; the new vector takes the slot. Room says: none deleted."""
+        """Full update, then deletion; the new vector takes the slot; n if it was itself deleted."""
         s, n = self.Ck, self.n
         q_star = np.append(np.diagonal(self.Q) + e * e / gamma, 1.0 / gamma)
         sum_star = q_star + np.append(np.diagonal(self.C) + r * s * s, r)

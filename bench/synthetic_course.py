@@ -34,7 +34,7 @@ def synthetic_course(boxes: int, seed: int = 0) -> Course:
     """Return a room with a block in its middle, and furniture wherever the path leaves room.
 
     The lap runs once around the block, anticlockwise: a limitation of right turns then costs its
-    computation and leaves the way driven alike, whoever steers. Fewer boxes are a subset of more.
+    computation and leaves the same way for every driver. Fewer boxes are a subset of more.
 
     Parameters
     ----------

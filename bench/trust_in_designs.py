@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from analysis.estimands import ESTIMANDS
 from analysis.frames import study_frames
 from analysis.lap_time_test import compare_laps
 from analysis.outcomes import by_participant
@@ -24,7 +25,6 @@ from analysis.stats.random_intercept import fit_random_intercept
 from analysis.stats.rank_sum import rank_sum
 from analysis.stats.ratio import ratio_of_means
 from analysis.stats.signed_rank import signed_rank
-from analysis.unfinished import ESTIMANDS
 from protocols.orders import Orders, designed_orders
 from protocols.record.reader import open_study
 

@@ -1,4 +1,4 @@
-"""Can the tests be trusted? Draws cohorts at table level and counts what each test says.
+"""Can the tests be trusted? Draws cohorts at table level and counts the tests' results.
 
     python bench/trust_in_tests.py [--cohorts 1000] [--seed 0]
 
@@ -58,9 +58,9 @@ def laps(rng: Rng, effect: float) -> pd.DataFrame:
 
 
 def unequal_laps(rng: Rng, effect: float) -> pd.DataFrame:
-    """Return lap times of a cohort whose contrasts spread unequally, as our synthetic people's do.
+    """Return lap times of a cohort whose contrasts spread unequally, as in the cohort.
 
-    The limited lap (c1) differs from everybody's other laps by person; the two assisted laps (c2,
+    The limited lap (c1) differs from a person's other laps by person; the two assisted laps (c2,
     c3) are driven nearly alike. Standard deviations of log differences: about 0.17 and 0.02.
     """
     person = rng.normal(4.2, BETWEEN, N)
@@ -210,8 +210,8 @@ def main() -> None:
         rng = np.random.default_rng([options.seed, 2])
         found = [estimate(rng) for _ in range(m)]
         there = [f for f in found if not math.isnan(f.low)]
-        held = np.mean([f.low <= truth <= f.high for f in there])
-        print(f"| {name} | {100 * held:.1f}% | {100 * (1 - len(there) / m):.1f}% |", flush=True)
+        covered = np.mean([f.low <= truth <= f.high for f in there])
+        print(f"| {name} | {100 * covered:.1f}% | {100 * (1 - len(there) / m):.1f}% |", flush=True)
 
 
 if __name__ == "__main__":

@@ -36,7 +36,7 @@ LAPS = 8
 
 @dataclass
 class Remembering:
-    """The demonstrator, whose last answer can be asked for again."""
+    """The demonstrator; its last answer can be asked for again."""
 
     demonstrator: AttentiveDemonstrator
     last: Assistance = NO_ASSISTANCE

@@ -1,7 +1,6 @@
-"""The seam every assistant fits: a demonstrator, the learned model, or somebody else's idea."""
+"""The seam every assistant fits: a demonstrator, the learned model, or your own."""
 
-from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,8 +8,7 @@ from numpy.typing import NDArray
 from lad.command import Command
 
 
-@dataclass(frozen=True, slots=True)
-class Assistance:
+class Assistance(NamedTuple):
     """What an assistant says in one step.
 
     Attributes
@@ -18,9 +16,9 @@ class Assistance:
     helping
         Whether it wants its command to count now (the paper's h = +1).
     command
-        What it would have the chair do; None when it is not helping and has nothing to say.
+        The command it proposes; None when it does not help and proposes none.
     p_help
-        p(h = 1 | x), in [0, 1]; None for an assistant that does not deal in probabilities.
+        p(h = 1 | x), in [0, 1]; None for an assistant that computes no probability.
     mean
         Predicted assistive action, also when it is not helping; None as for ``p_help``.
     variance
@@ -39,10 +37,10 @@ NO_ASSISTANCE = Assistance(helping=False)
 
 
 class Assistant(Protocol):
-    """Whoever may help. Called once in every step of every lap, helping or only watching."""
+    """Gives help. The lap calls it once in every step, also when its help does not count."""
 
     def start_lap(self) -> None:
-        """Forget the last lap's history; keep what was learnt."""
+        """Forget the last lap's inputs; keep what was learnt."""
 
     def assist(self, x: NDArray[np.float64]) -> Assistance:
         """Look at the inputs (shape (19,), order of ``lad.inputs.INPUT_NAMES``) and answer."""

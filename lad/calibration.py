@@ -40,7 +40,7 @@ class Reliability:
 
 
 def brier_score(p_help: Floats, helped: NDArray[np.bool_]) -> float:
-    """Mean squared error of the probability of help: 0 is perfect, 0.25 is always saying 0.5.
+    """Mean squared error of the probability of help: 0 is perfect, 0.25 is a constant 0.5.
 
     Parameters
     ----------

@@ -12,7 +12,7 @@ def compile_cached(function: F, fastmath: Iterable[str]) -> F:
     """Compile on first call, and keep the machine code beside the source for the next process.
 
     A read-only installation without a writable home has nowhere to keep it: numba raises when
-    it is asked to, and the function is then compiled anew in each process.
+    it is asked to, and the function is then compiled in each process.
     """
     options: dict[str, Any] = {"nogil": True, "fastmath": set(fastmath), "error_model": "numpy"}
     try:
@@ -34,10 +34,10 @@ def compiled(function: F) -> F:
 def compiled_sums(function: F) -> F:
     """Compile with sums that may be reordered, which vectorises a running total.
 
-    Not for everything: freed from its order, LLVM also moves a division by a constant from
-    outside a loop to inside it. The order is chosen when the code is made, from the types alone:
+    Do not use it everywhere: without a fixed order, LLVM also moves a division by a constant
+    from outside a loop to inside it. The order is chosen when code is made, from the types alone:
     every caller passes contiguous arrays, so there is one signature, lazily compiled or not, and
-    code from disk is the code that was made. That the copies inside callers use the same order
-    nothing promises; a test compares them.
+    code from disk is the code that was made. Nothing guarantees that the copies inside callers
+    use the same order; a test compares them.
     """
     return compile_cached(function, ("contract", "reassoc", "nsz"))

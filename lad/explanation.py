@@ -1,4 +1,4 @@
-"""What a prediction leans on: the basis vectors behind the mean."""
+"""What a prediction depends on: the basis vectors behind the mean."""
 
 from dataclasses import dataclass
 
@@ -34,7 +34,7 @@ class Influence:
 
 
 def explain(process: StorkGP, most: int | None = 5) -> list[Influence]:
-    """Say which basis vectors the prediction at the window leans on, the strongest first.
+    """Return the basis vectors that the prediction at the window depends on, the strongest first.
 
     Parameters
     ----------

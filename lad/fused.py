@@ -8,7 +8,7 @@ Layout. ``C`` and ``Q`` are lower triangles whose rows begin at ``starts`` (``la
 ``row_of`` is the one function from elsewhere). ``basis`` is (tau, d, room), so that the kernel's
 inner loop runs over basis vectors; ``alpha`` is (p, room). The rows of ``work`` are the vectors of
 the step in progress: k, then s (at first C k), then e = Q k, then the starred columns of a
-deletion.
+deletion. ``predict`` uses the row of e as scratch, because ``learn`` fills it only later.
 """
 
 from typing import Any
@@ -29,8 +29,11 @@ SPARSE, FULL, REPLACED = 1, 2, 3
 LOG2_E = 1.4426950408889634
 LN2_HIGH = 6.93147180369123816490e-01
 LN2_LOW = 1.90821492927058770002e-10
+"""ln 2 in two parts: the first one ends in zeros, so n times it is exact for every n used here."""
 ROUNDER = 6755399441055744.0
+"""1.5 * 2^52: adding it rounds to a whole number and leaves it in the lowest bits of the sum."""
 LOWEST_EXPONENT = -80.0
+"""Keeps the result a normal number; a covariance of e^-80 = 2e-35 changes no sum."""
 
 
 def _reinterpretation(source: Any, target: Any) -> Any:
@@ -94,6 +97,7 @@ def kernel_vector(
     the running sum for four of them.
     """
     depth, d = window.shape
+    # The recursion starts at the oldest input and ends at the newest; k - 1 is 0 before the first.
     k[:n] = 1.0
     for lag in range(depth - 1, -1, -1):
         distance[:n] = 0.0
@@ -122,6 +126,8 @@ def symmetric_product(triangle: Vector, starts: Starts, x: Vector, n: int, out: 
     One pass over the triangle, four rows at a time: each row counts once as a row and once as
     a column.
     """
+    # At 800 vectors the triangle is larger than the fast caches, so memory sets the time. Four
+    # rows at a time load and store ``out`` a quarter as often; four totals do not wait in turn.
     out[:n] = 0.0
     last = n - n % 4
     for a in range(0, last, 4):
@@ -255,7 +261,7 @@ def lowest_score(
     q: Vector,
     r: float,
 ) -> int:
-    """Find whom to delete after a full update that has not been made yet; n is the new one."""
+    """Find the slot to delete after a full update that has not been made yet; n is the new one."""
     s, e, scores = work[S_ROW], work[E_ROW], work[D_ROW]
     scores[: n + 1] = 0.0
     for output in range(alpha.shape[0]):
@@ -264,6 +270,8 @@ def lowest_score(
             value = row[i] + q[output] * s[i]
             scores[i] += value * value
         scores[n] += q[output] * q[output]
+    # Rounding can bring q* + c* to 0 or below for a well-observed vector. Without the least share
+    # its score would be negative, and an important vector would be deleted.
     for i in range(n):
         q_star = Q[starts[i] + i] + e[i] * e[i] / gamma
         c_star = C[starts[i] + i] + r * s[i] * s[i]
@@ -294,7 +302,7 @@ def starred_columns(
 def move_new_into(
     slot: int, n: int, C: Vector, Q: Vector, starts: Starts, alpha: Matrix, work: Matrix
 ) -> None:
-    """Let the new vector stand where the deleted one stood: its entries were zero so far."""
+    """Give the deleted vector's slot to the new one, whose entries were zero so far."""
     row_of(C, starts, slot)[:] = 0.0
     row_of(Q, starts, slot)[:] = 0.0
     for a in range(slot + 1, n):
@@ -319,7 +327,7 @@ def update_and_delete(
 ) -> int:
     """Add the sample, delete the lowest score, in one pass; return the slot of the deleted.
 
-    The new vector takes that slot; slot n says that it was itself deleted. With u = [e; -1] and
+    The new vector takes that slot; slot n means that it was itself deleted. With u = [e; -1] and
     D = Q* + C* the whole step is C += r s s' + Q* Q*' / q* - D D' / (q* + c*) and
     Q += u u' / gamma - Q* Q*' / q*, which is nothing for slot n.
     """
@@ -329,6 +337,7 @@ def update_and_delete(
     starred_columns(n, slot, C, Q, starts, work, gamma, r)
     by_q = 1.0 / Q_star[slot]
     by_d = 1.0 / max(D[slot], SMALLEST_SHARE * Q_star[slot])
+    # The deleted entries of alpha, read before ``move_new_into`` overwrites their slot.
     weights = np.empty(alpha.shape[0])
     for output in range(alpha.shape[0]):
         weights[output] = q[output] * s[slot]
@@ -338,12 +347,13 @@ def update_and_delete(
         move_new_into(slot, n, C, Q, starts, alpha, work)
     add_to_alpha(alpha, n, q, 1.0, s)
     add_to_alpha(alpha, n, weights, -by_d, D)
+    # One pass for three outer products: reading and writing C costs more than the arithmetic.
     for a in range(n):
         row = row_of(C, starts, a)
         sa, qa, da = r * s[a], by_q * Q_star[a], by_d * D[a]
         for b in range(a + 1):
             row[b] += sa * s[b] + qa * Q_star[b] - da * D[b]
-    if slot == n:  # the new one came and went: u u' / gamma = Q* Q*' / q*
+    if slot == n:  # the new one was deleted, so Q stays: u u' / gamma = Q* Q*' / q*
         return slot
     for a in range(n):
         row, ea, qa = row_of(Q, starts, a), e[a] / gamma, by_q * Q_star[a]
@@ -372,7 +382,7 @@ def learn(
     -------
     tuple
         What was done (SPARSE, FULL or REPLACED), gamma, and the slot of the new vector; n with
-        REPLACED says that the new vector was itself deleted.
+        REPLACED means that the new vector was itself deleted.
     """
     symmetric_product(Q, starts, work[K_ROW], n, work[E_ROW])
     gamma = prior - inner(work[K_ROW], work[E_ROW], n)
@@ -387,9 +397,9 @@ def learn(
 
 @compiled
 def likeliest_wrong(n: int, new: int, Q: Vector, starts: Starts, work: Matrix) -> int:
-    """Find the basis vector whose column of QK - I the last step has most likely spoilt.
+    """Find the basis vector whose column of QK - I has probably gained the largest error.
 
-    That of the new vector itself is nearly exact.
+    The column of the new vector itself is nearly exact.
     """
     k, best, largest = work[K_ROW], 0, -1.0
     for i in range(n):

@@ -1,7 +1,7 @@
 """How far Q is from the inverse of the kernel matrix, watched cheaply and repaired.
 
 Every full update and deletion adds rounding errors to Q, more of them the more alike the basis
-vectors are: on smooth, noise-free inputs |QK - I| reaches 0.08 if nobody looks. One column of
+vectors are: on smooth, noise-free inputs |QK - I| reaches 0.08 without repairs. One column of
 QK - I costs about as much as a prediction; the column looked at belongs to the vector with the
 largest Q_jj k(b_j, x) for the input x just learnt, which carries nearly all of the error that the
 step has made.
@@ -20,12 +20,12 @@ from lad.update import SMALLEST_NOVELTY
 
 LARGEST_RESIDUAL = 1e-6
 LIMIT = LARGEST_RESIDUAL / 10.0
-"""A tenth, because the one column looked at stands for all the others."""
+"""A tenth, because the one column looked at represents all the others."""
 
 LEAST_RISK = 1.0 / 16.0
 RISKY_NOVELTY = 3e-3
 ROUND_EVERY = 8
-"""Every eighth look takes in one column more, in turn, so that none is left out for ever."""
+"""Every eighth check includes one more column, in turn, so that each is checked at some time."""
 
 
 @dataclass
@@ -37,16 +37,16 @@ class Health:
     residual
         Largest entry of the column (or two) of |QK - I| looked at last.
     limit
-        Residual of that column at which Q is computed anew: a tenth of 1e-6, or ten times what the
+        Residual of that column at which Q is recomputed: a tenth of 1e-6, or ten times what the
         last repair could reach where the kernel matrix is so ill-conditioned that float64 cannot
         do better.
     probes
         How often a column was looked at.
     repairs
-        How often Q was computed anew by factorising the kernel matrix.
+        How often Q was recomputed by factorising the kernel matrix.
     recoveries
         How often a posterior with a negative variance was rebuilt (``lad.recovery``): 0 with
-        Table I, and with any noise worth the name.
+        Table I, and with any noise that is not tiny.
     risk
         Sum, since the last look, of a weight per change of Q: at least 1/16, and 1 when the
         novelty was 3e-3 or less (the error of a full update grows with 1 / gamma). The next look
@@ -102,13 +102,13 @@ class KernelMatrix:
             row_of(triangle, self.state.starts, slot)[:] = k[: slot + 1]
 
     def invert_into_Q(self) -> None:  # noqa: N802  # Q is the mathematics' own name
-        """Compute Q anew from the kernel matrix; C and alpha do not depend on its errors."""
+        """Recompute Q from the kernel matrix; C and alpha do not depend on its errors."""
         self.fill(self.state.Q)
         invert(self.state.Q, self.state.starts, self.state.n, SMALLEST_NOVELTY)
 
 
 def watch(health: Health, matrix: KernelMatrix, new: int, novelty: float) -> None:
-    """Look, when it is due, after a step that changed Q; repair when the residual is too large.
+    """Check a column, when it is due, after a step that changed Q; repair a residual too large.
 
     Parameters
     ----------
@@ -139,6 +139,6 @@ def watch(health: Health, matrix: KernelMatrix, new: int, novelty: float) -> Non
 
 
 def repair(health: Health, matrix: KernelMatrix) -> None:
-    """Compute Q anew, and count it."""
+    """Recompute Q, and count it."""
     matrix.invert_into_Q()
     health.repairs += 1

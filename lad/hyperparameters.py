@@ -22,7 +22,7 @@ def _number(value: object) -> object:
 
 
 def _sequence(value: object) -> object:
-    """Let lists and arrays stand where a tuple is kept."""
+    """Accept lists and arrays where a tuple is kept."""
     if hasattr(value, "tolist"):
         value = value.tolist()
     return tuple(value) if isinstance(value, list) else value
@@ -42,7 +42,7 @@ Threshold = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False), BeforeValid
 
 
 def _one_line(model: type[BaseModel], error: ValidationError) -> str:
-    """Say in one line what was given and what is allowed."""
+    """Return in one line what was given and what is allowed."""
     parts = []
     for item in error.errors(include_url=False):
         where = ".".join(str(part) for part in item["loc"])
@@ -55,7 +55,7 @@ def _one_line(model: type[BaseModel], error: ValidationError) -> str:
 
 
 class _Checked(BaseModel):
-    """A frozen model whose direct construction raises our own named error."""
+    """A frozen model that raises ``HyperparameterError`` when it is constructed directly."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", validate_default=True)
 

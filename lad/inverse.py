@@ -31,7 +31,7 @@ def swap(A: Vector, starts: Starts, n: int, i: int, j: int) -> None:
 def factorise(K: Vector, starts: Starts, n: int, least_pivot: float) -> NDArray[np.int64]:
     """P K P' = L L': put L where K was, and return which row each step exchanged its own with.
 
-    The pivot is the largest residual variance; below ``least_pivot`` it counts as that.
+    The pivot is the largest residual variance; at least ``least_pivot`` is used.
     """
     partners = np.empty(n, dtype=np.int64)
     variance = np.empty(n)

@@ -24,7 +24,7 @@ class LADAssistant:
     """A classifier for when and a regressor for how, looking at the same window.
 
     Helps when p(h = 1 | x) >= W_h and the regressor has learnt something: an untrained classifier
-    says exactly 0.5, which passes the paper's threshold.
+    gives exactly 0.5, which passes the paper's threshold.
 
     Parameters
     ----------

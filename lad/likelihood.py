@@ -1,4 +1,4 @@
-"""What was observed, and what it says about the latent function.
+"""What was observed, and what follows from it for the latent function.
 
 The projected process needs only two numbers of a likelihood, the first and second derivative of
 the log evidence with respect to the latent mean: q and r (Csato & Opper 2002, section 2).

@@ -51,7 +51,7 @@ def pack(kind: str, header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]
     kind
         What the file holds; ``unpack`` asks for it by name.
     header
-        Anything JSON can say.
+        Anything JSON can hold.
     arrays
         Named arrays of numbers.
     """
@@ -126,7 +126,7 @@ def read(path: str | Path) -> bytes:
 
 
 def write_whole(path: str | Path, data: bytes) -> None:
-    """Write beside the place and rename, so that a reader never meets half a file."""
+    """Write under another name and rename, so that a reader never finds half a file."""
     path = Path(path)
     beside = path.with_name(f".{path.name}.{os.getpid()}")
     try:

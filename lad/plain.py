@@ -1,4 +1,4 @@
-"""STORK-GP as the equations say it: dense numpy, a matrix per line, nothing in place.
+"""STORK-GP as the equations define it: dense numpy, a matrix per line, nothing in place.
 
 This is the definition. The class people use, ``lad.stork_gp.StorkGP``, computes the same numbers
 in place and many times faster, and is tested against this one.
@@ -75,7 +75,7 @@ def delete(state: Posterior, i: int) -> Posterior:
 
 
 def without(i: int, n: int) -> NDArray[np.intp]:
-    """Order of the n - 1 that stay: the last stands where i stood."""
+    """Order of the n - 1 that stay: the last one takes place i."""
     order = np.arange(n)
     order[i] = n - 1
     return order[:-1]
@@ -138,14 +138,14 @@ class PlainStorkGP:
         )
 
     def predict(self) -> Prediction:
-        """Predict at the window as it stands: equations (8) and (9)."""
+        """Predict at the current window: equations (8) and (9)."""
         k = self.kernel()
         hyper = self.hyperparameters
         latent = max(hyper.signal_variance + float(k @ self.state.C @ k), SMALLEST_VARIANCE)
         return Prediction(k @ self.state.alpha, latent, latent + hyper.noise_variance)
 
     def learn(self, y: object) -> Update:
-        """Learn the target of the window as it stands."""
+        """Learn the target of the current window."""
         target = check_target(y, self.n_outputs, self.likelihood)
         prediction = self.predict()
         derivatives = evidence(target, prediction.mean, prediction.variance, self.likelihood)

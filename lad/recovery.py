@@ -1,10 +1,10 @@
-"""The way back from a posterior that rounding has made impossible.
+"""Recovery from a posterior that rounding has made impossible.
 
 In exact arithmetic a posterior variance is never negative. In float64, with noise far below the
 signal and inputs closely alike, k'Ck can pass below -k(x, x); a step taken from there has the
 wrong sign, the next one is larger, and soon nothing is finite. Table I's numbers do not come near
-it. Whoever chooses other numbers gets a step back instead: the model is rebuilt as if each basis
-vector had been observed once, at the value the model holds there.
+it. With other numbers the model is rebuilt when that happens, as if each basis vector had been
+observed once, at the model's own mean there.
 """
 
 import numpy as np
@@ -21,7 +21,7 @@ LEAST_NOISE_SHARE = 1e-6
 
 
 def is_possible(latent: float, noise: float) -> bool:
-    """Say whether a latent variance, not yet kept positive, can be learnt from; NaN cannot."""
+    """Return whether a latent variance, not yet kept positive, can be learnt from; NaN cannot."""
     return latent >= -TOLERATED_SHARE * noise
 
 
@@ -29,7 +29,7 @@ def rebuild(matrix: KernelMatrix, noise: float) -> None:
     """Make alpha and C those of one observation per basis vector, at the present mean.
 
     C = -(K + d I)^-1 and alpha <- (K + d I)^-1 K alpha, with d the noise or a millionth of the
-    prior variance, whichever is more. What is not finite any more is forgotten.
+    prior variance, whichever is more. Values that are no longer finite are forgotten.
 
     Parameters
     ----------

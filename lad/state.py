@@ -15,7 +15,7 @@ WORK_ROWS = 5
 class State:
     """Basis vectors and the natural parameters of the process over them.
 
-    Room doubles until it holds capacity + 1 (a new vector stands beside the old ones before one
+    Room doubles until it holds capacity + 1 (a new vector is stored after the old ones before one
     is deleted), then memory is constant.
 
     Attributes

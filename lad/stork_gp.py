@@ -26,7 +26,7 @@ class StorkGP:
     """Spatio-temporal online recursive kernel Gaussian process.
 
     Looking and learning are apart: ``observe`` advances the window once per step, ``predict`` and
-    ``learn`` use the window as it stands, ``reset_window`` starts a lap and forgets nothing that
+    ``learn`` use the current window, ``reset_window`` starts a lap and forgets nothing that
     was learnt.
 
     Parameters
@@ -38,7 +38,7 @@ class StorkGP:
     n_outputs
         Number of outputs p; they share C, Q and the basis vectors. A classifier has one.
     window
-        A window to share with another process (the one who shares it observes once).
+        A window to share with another process (only one of the two calls ``observe``).
 
     Attributes
     ----------
@@ -142,12 +142,12 @@ class StorkGP:
         self._looked_at = self.window.version
 
     def predict(self) -> Prediction:
-        """Predict at the window as it stands: equations (8) and (9). Changes nothing."""
+        """Predict at the current window: equations (8) and (9). Changes nothing."""
         self._look()
         return Prediction(self._mean.copy(), self._latent, self._latent + self._noise)
 
     def covariances(self) -> NDArray[np.float64]:
-        """Shape (n,): k(b, x) of every basis vector and the window as it stands."""
+        """Shape (n,): k(b, x) of every basis vector and the current window."""
         self._look()
         return self.state.work[fused.K_ROW, : self.state.n].copy()
 
@@ -162,11 +162,11 @@ class StorkGP:
         return self._kernel_matrix.residual()
 
     def repair(self) -> None:
-        """Compute Q anew from the kernel matrix, as the watch does when it must; counted."""
+        """Recompute Q from the kernel matrix, as the watch does when it must; counted."""
         repair(self.health, self._kernel_matrix)
 
     def learn(self, y: object) -> Update:
-        """Learn the target of the window as it stands.
+        """Learn the target of the current window.
 
         Parameters
         ----------
@@ -206,14 +206,14 @@ class StorkGP:
         return update
 
     def _recover(self) -> None:
-        """Rebuild an impossible posterior, and look again."""
+        """Rebuild an impossible posterior, and compute k and C k again."""
         rebuild(self._kernel_matrix, self._noise)
         self.health.recoveries += 1
         self._looked_at = -1
         self._look()
 
     def _take_in(self, done: int, novelty: float, slot: int) -> Update:
-        """Keep the window where the step put the new basis vector, and say what happened."""
+        """Keep the window where the step put the new basis vector, and return what happened."""
         state = self.state
         if done == fused.SPARSE:
             return Update(UpdateKind.SPARSE, novelty)

@@ -1,4 +1,4 @@
-"""A whole stream at once: observe, predict, learn, for every step of it."""
+"""A whole recorded stream at once: observe, predict, learn, for every step of it."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -14,16 +14,16 @@ Integers = NDArray[np.int64]
 
 
 class OnlineProcess(Protocol):
-    """What a stream needs of a process; ``StorkGP`` and ``PlainStorkGP`` both have it."""
+    """What ``learn_stream`` needs of a process; ``StorkGP`` and ``PlainStorkGP`` both have it."""
 
     def observe(self, x: Floats) -> None:
         """Advance the window."""
 
     def predict(self) -> Prediction:
-        """Predict at the window as it stands."""
+        """Predict at the current window."""
 
     def learn(self, y: object) -> Update:
-        """Learn the target of the window as it stands."""
+        """Learn the target of the current window."""
 
     def check(self, x: object, y: object | None = None) -> None:
         """Raise what ``observe`` and ``learn`` would raise, and change nothing."""

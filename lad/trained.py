@@ -1,4 +1,4 @@
-"""A model that somebody else's laps have taught, for a protocol that starts with one."""
+"""A model that was taught before the study, for a protocol that starts with one."""
 
 from lad.lad_assistant import LADAssistant
 
@@ -6,8 +6,8 @@ from lad.lad_assistant import LADAssistant
 def load(path: str) -> LADAssistant:
     """Return the shipped model as it was saved.
 
-    A protocol names it by its dotted path, the file by participant:
-    ``{use: "lad.trained:load", options: {path: "{folder}/sessions/{participant}/model.npz"}}``.
+    A protocol names it ``taught``, and the file by participant:
+    ``{use: taught, options: {path: "{folder}/sessions/{participant}/model.npz"}}``.
 
     Parameters
     ----------
@@ -17,6 +17,6 @@ def load(path: str) -> LADAssistant:
     Raises
     ------
     ModelFileError
-        When it cannot be read or is none; names the path.
+        When it cannot be read or is not such a model; names the path.
     """
     return LADAssistant.load(path)

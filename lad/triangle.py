@@ -51,7 +51,7 @@ def triangle_zeros(n: int) -> Vector:
 
 
 def entries(n: int) -> Starts:
-    """Where the n (n + 1) / 2 entries of a triangle stand, row by row."""
+    """Where the n (n + 1) / 2 entries of a triangle are, row by row."""
     rows, columns = np.tril_indices(n)
     return row_starts(n)[rows] + columns
 

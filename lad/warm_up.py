@@ -1,4 +1,4 @@
-"""Compile everything now, rather than in the middle of somebody's lap."""
+"""Compile everything now, so that no lap has to wait for it."""
 
 import numpy as np
 

@@ -7,6 +7,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from lad.compiled import compiled
 from lad.errors import HyperparameterError, InvalidInputError
 
 LARGEST_INPUT = 1e150
@@ -15,7 +16,7 @@ LARGEST_INPUT = 1e150
 
 @dataclass
 class Window:
-    """The last tau inputs in units of their lengthscales; zeros stand for missing ones.
+    """The last tau inputs in units of their lengthscales; zeros replace missing ones.
 
     Classifier and regressor may share one window: it holds nothing either of them has learnt.
 
@@ -58,7 +59,7 @@ class Window:
     def check(self, x: object) -> NDArray[np.float64]:
         """Return x as floats, shape (d,), or raise what ``observe`` would raise."""
         vector = as_vector(x, self.lengthscales.size, "input", InvalidInputError)
-        if not (np.abs(vector) <= self._largest).all():  # NaN is no smaller either
+        if not _allowed(vector, self._largest):
             _refuse(vector, self._largest)
         return vector
 
@@ -75,9 +76,7 @@ class Window:
         InvalidInputError
             When x has another shape or type, or a value that is not finite; nothing has changed.
         """
-        vector = self.check(x)
-        self.scaled[1:] = self.scaled[:-1]
-        self.scaled[0] = vector / self.lengthscales
+        _push(self.scaled, self.check(x), self.lengthscales)
         self.time += 1
         self.seen += 1
         self.version += 1
@@ -96,6 +95,23 @@ class Window:
         return np.asarray(self.scaled * self.lengthscales)
 
 
+@compiled
+def _allowed(vector: Any, largest: Any) -> Any:
+    within = 0
+    for i in range(len(vector)):
+        within += abs(vector[i]) <= largest[i]  # NaN is no smaller either
+    return within == len(vector)
+
+
+@compiled
+def _push(scaled: Any, vector: Any, lengthscales: Any) -> None:
+    for lag in range(len(scaled) - 1, 0, -1):
+        for i in range(len(vector)):
+            scaled[lag, i] = scaled[lag - 1, i]
+    for i in range(len(vector)):
+        scaled[0, i] = vector[i] / lengthscales[i]
+
+
 def as_vector(value: object, size: int, name: str, error: type[ValueError]) -> NDArray[np.float64]:
     """Check the type and the length of a vector; its values are the caller's business.
 
@@ -108,7 +124,7 @@ def as_vector(value: object, size: int, name: str, error: type[ValueError]) -> N
     name
         What to call it in the message.
     error
-        The error to raise, one line that says what was given and what is allowed.
+        The error to raise, with one line: what was given and what is allowed.
     """
     try:
         array = np.asarray(value)
@@ -118,7 +134,7 @@ def as_vector(value: object, size: int, name: str, error: type[ValueError]) -> N
         raise error(f"{name}: given {_described(value, array)}; allowed are {size} real numbers")
     if array.shape != (size,):
         raise error(f"{name}: given shape {array.shape}; allowed is ({size},)")
-    return array.astype(np.float64, copy=False)
+    return np.ascontiguousarray(array, dtype=np.float64)
 
 
 def _described(value: object, array: NDArray[Any]) -> str:
@@ -127,7 +143,7 @@ def _described(value: object, array: NDArray[Any]) -> str:
 
 
 def _refuse(x: NDArray[np.float64], largest: NDArray[np.float64]) -> NoReturn:
-    """Say which value is not finite, or too large."""
+    """Raise an error that names the value that is not finite, or too large."""
     index = int(np.flatnonzero(~(np.abs(x) <= largest))[0])
     raise InvalidInputError(
         f"input: given {x[index]} at index {index}; allowed are finite numbers up to "

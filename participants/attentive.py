@@ -1,7 +1,7 @@
-"""A demonstrator who watches the sharp right turns, and helps nowhere else.
+"""A demonstrator who helps in the sharp right turns and nowhere else.
 
-The lead author's part in the study (section IV.B): control is taken over during the right turns
-at R1 and R2. On any course these are the sections labelled ``sharp_right``.
+The lead author's part in the study (section IV.B) was to take over during the right turns at R1
+and R2. On any course these are the sections labelled ``sharp_right``.
 """
 
 import math
@@ -40,7 +40,7 @@ LEG = 1.0
 
 
 class AttentiveOptions(Options):
-    """What a protocol may say about an attentive demonstrator.
+    """What a protocol may set for an attentive demonstrator.
 
     Attributes
     ----------
@@ -61,8 +61,8 @@ class AttentiveOptions(Options):
 class AttentiveDemonstrator:
     """Takes over at sharp right turns, after a reaction time, and hands back once aligned.
 
-    What it does follows from what it sees alone, not from whether its command counts: as a shadow
-    it goes on wanting to help until the chair is through the turn, whoever turns it.
+    What it does follows only from what it sees, not from whether its command counts: as a shadow
+    it still wants to help until the chair is through the turn, even when the driver turns it.
 
     Parameters
     ----------
@@ -80,6 +80,7 @@ class AttentiveDemonstrator:
         self._options = options
         self._rng = rng
         self._corners = tuple(s for s in self._line.sections if s.kind == "sharp_right")
+        self._legs = {corner.start: self._line.point(corner.end + LEG) for corner in self._corners}
         self.start_lap()
 
     def start_lap(self) -> None:
@@ -88,7 +89,7 @@ class AttentiveDemonstrator:
         self._arc: float | None = None
         self._sight: Sight | None = None
         self._acts_at: float | None = None
-        self._hand: CornerSteering | None = None
+        self._steering: CornerSteering | None = None
 
     def look(self, sight: Sight) -> None:
         """See the room."""
@@ -96,26 +97,28 @@ class AttentiveDemonstrator:
         self._arc, _ = self._line.locate(sight.pose.x, sight.pose.y, self._arc)
 
     def assist(self, x: NDArray[np.float64]) -> Assistance:
-        """Say whether to help now, and how; only the user's stick is read from ``x``."""
+        """Answer whether to help now, and how; only the user's stick is read from ``x``."""
         if self._sight is None or self._arc is None:
             return NO_ASSISTANCE
         corner = self._corner_at(self._arc)
         if corner is None or not self._wants_to_help(corner, self._sight, float(x[1])):
-            self._acts_at, self._hand = None, None
+            self._acts_at, self._steering = None, None
             return NO_ASSISTANCE
         if self._acts_at is None:
             self._acts_at = self._sight.t + self._reaction()
         if self._sight.t < self._acts_at:
             return NO_ASSISTANCE
-        if self._hand is None:
-            self._hand = CornerSteering(
+        if self._steering is None:
+            self._steering = CornerSteering(
                 self._line, corner, self._raster, self._lap_rng, self._options.pace
             )
-        return Assistance(helping=True, command=self._hand.steer(self._sight, self._arc))
+        return Assistance(helping=True, command=self._steering.steer(self._sight, self._arc))
 
     def _corner_at(self, arc: float) -> Stretch | None:
-        near = (c for c in self._corners if c.start - EARLIEST <= arc <= c.end + LATEST)
-        return next(near, None)
+        for corner in self._corners:
+            if corner.start - EARLIEST <= arc <= corner.end + LATEST:
+                return corner
+        return None
 
     def _wants_to_help(self, corner: Stretch, sight: Sight, stick: float) -> bool:
         to_turn, off = self._through(corner, sight)
@@ -129,7 +132,7 @@ class AttentiveDemonstrator:
 
     def _through(self, corner: Stretch, sight: Sight) -> tuple[float, float]:
         """Return how far right the chair must turn to point along the next leg, and towards it."""
-        leg = self._line.point(corner.end + LEG)
+        leg = self._legs[corner.start]
         towards = math.atan2(leg.y - sight.pose.y, leg.x - sight.pose.x)
         return (
             math.remainder(sight.pose.heading - leg.heading, math.tau),

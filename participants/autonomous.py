@@ -11,20 +11,20 @@ from participants.dwa import DynamicWindow, choose
 from participants.localisation import Localisation
 from participants.options import Options, read_options
 from participants.planning.field import scan_field
-from participants.planning.route import Route, plan_route
 from participants.planning.surroundings import known_raster
 from participants.recovery import Recovery
 from participants.setup import DriverSetup
 from participants.sight import Sight
 from protocols.course.occupancy import Occupancy
+from protocols.course.route import Route, plan_route
 from protocols.wheelchair import LASER_RANGE, MAX_SPEED, MAX_TURN_RATE
 
 PATIENCE = 1.0
-"""Standing still against its will for longer makes it try something else, s."""
+"""It tries something else when it cannot move for longer than this, s."""
 
 
 class AutonomousOptions(Options):
-    """What a protocol may say about an autonomous driver.
+    """What a protocol may set for an autonomous driver.
 
     Attributes
     ----------
@@ -39,8 +39,8 @@ class AutonomousOptions(Options):
 class AutonomousDriver:
     """A navigation stack with a map and a laser.
 
-    It plans anew in every step from what it sees, and does not know that its commands may be
-    scaled behind its back. Blocked, it tries small movements, as navigation stacks do.
+    It plans again in every step from what it sees. It does not know when its commands are scaled
+    or replaced. When blocked, it tries small movements, as navigation stacks do.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ class AutonomousDriver:
     lookahead
         How far ahead on the path the local planner's target lies, m.
     options
-        What else a protocol may say.
+        What else a protocol may set.
     """
 
     def __init__(
@@ -79,7 +79,7 @@ class AutonomousDriver:
         self._recovery = Recovery(self._raster, PATIENCE)
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:  # noqa: ARG002  # the seam's
-        """Look for itself on the path anew."""
+        """Forget its place on the path, and localise again."""
         self._localisation = Localisation(rng)
         (self._rng,) = rng.spawn(1)
         self._arc = None
@@ -101,7 +101,7 @@ class AutonomousDriver:
         field = scan_field(sight.ranges, sight.bearings, sight.laser, LASER_RANGE)
         choice = choose(field, sight.velocity, target, self._window)
         error = math.atan2(target[1], target[0])
-        # It never wants to stand: finding nothing admissible is being stuck, too.
+        # It never wants to stand, so it is stuck when no velocity is admissible, too.
         wanted = Command(1.0, 0.0)
         if sight.helped:
             self._recovery.helped()

@@ -61,8 +61,8 @@ def draw_person(cohort: Cohort, rng: np.random.Generator) -> Person:
     Parameters
     ----------
     cohort
-        The protocol's cohort: which ages, shares of genders and hands, impairments, and traits
-        that are distributed otherwise than calibrated.
+        The protocol's cohort: ages, shares of genders and handedness, impairments, and traits whose
+        distribution differs from the calibrated one.
     rng
         This person's own random numbers.
 

@@ -15,7 +15,7 @@ from protocols.course.occupancy import Occupancy
 from protocols.wheelchair import LASER_RANGE, MAX_TURN_RATE
 
 AHEAD = 0.8
-"""How far ahead on the centreline one steers, m."""
+"""How far ahead on the centreline the demonstrator aims, m."""
 
 GAIN = 2.5
 """Turn rate per radian of direction error, 1/s: firm."""
@@ -24,16 +24,16 @@ SLOWEST, FASTEST = 0.05, 0.35
 """Speeds in a turn, m/s."""
 
 MARGIN = 0.1
-"""Room below which one slows down, m."""
+"""Distance to obstacles below which the demonstrator slows down, m."""
 
 FIRMLY = 2.0
-"""A full turn is pushed for beyond the stick's end, so that it does not tremble."""
+"""In a full turn the intention is beyond the stick's end, so that it does not tremble."""
 
 PATIENCE = 1.0
-"""Standing still against its will for longer makes it try something else, s."""
+"""The demonstrator tries something else when the chair cannot move for longer than this, s."""
 
 LAG, NOISE = 0.12, 0.06
-"""Those of a person's hand: the stick's time constant in s, and the noise's share."""
+"""Of a person's stick: its time constant in s, and the noise as a share of the deflection."""
 
 
 class CornerSteering:
@@ -46,9 +46,9 @@ class CornerSteering:
     corner
         The corner to get through.
     raster
-        What stands where.
+        Where obstacles are.
     rng
-        Random numbers of the hand.
+        Random numbers of the stick.
     pace
         Share of the speed at which the corner could just be driven.
     """
@@ -66,7 +66,7 @@ class CornerSteering:
         radius = (corner.end - corner.start) / max(abs(math.remainder(turn, math.tau)), 0.1)
         # The chair turning as fast as it can just follows the corner at this speed.
         self._speed = min(max(pace * radius * MAX_TURN_RATE, SLOWEST), FASTEST)
-        self._hand = Stick(LAG, NOISE, rng)
+        self._stick = Stick(LAG, NOISE, rng)
         self._recovery = Recovery(raster, PATIENCE)
         self._t: float | None = None
 
@@ -82,19 +82,19 @@ class CornerSteering:
         """
         passed = LAG if self._t is None else sight.t - self._t
         self._t = sight.t
-        wish, error = self._wish(sight, arc)
-        # A shadow's will moves nothing: only who drives can be stuck.
+        wanted, error = self._wanted(sight, arc)
+        # A shadow's command moves nothing: only the one who drives can be stuck.
         if sight.helped:
-            free = self._recovery.movement(sight, wish, error)
+            free = self._recovery.movement(sight, wanted, error)
             if free is not None:
-                return self._hand.move(free, passed)
+                return self._stick.move(free, passed)
         field = scan_field(sight.ranges, sight.bearings, sight.laser, LASER_RANGE)
-        careful = slowed(field, wish, MARGIN)
+        careful = slowed(field, wanted, MARGIN)
         firm = FIRMLY if abs(careful.w) == MAX_TURN_RATE else 1.0
-        return self._hand.move(Command(careful.v, firm * careful.w), passed)
+        return self._stick.move(Command(careful.v, firm * careful.w), passed)
 
-    def _wish(self, sight: Sight, arc: float) -> tuple[Command, float]:
-        """Return what it would have the chair do on a free floor, and the direction error."""
+    def _wanted(self, sight: Sight, arc: float) -> tuple[Command, float]:
+        """Return the command for a free floor, and the direction error."""
         aim = self._line.point(arc + AHEAD)
         towards = math.atan2(aim.y - sight.pose.y, aim.x - sight.pose.x)
         error = math.remainder(towards - sight.pose.heading, math.tau)

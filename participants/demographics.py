@@ -14,7 +14,7 @@ from protocols.files.errors import InputError
 
 @dataclass(frozen=True, slots=True)
 class Particulars:
-    """What a person would tick on a form; categories as in the record."""
+    """What a person enters on a form; categories as in the record."""
 
     age_years: int
     gender: str
@@ -22,7 +22,7 @@ class Particulars:
 
 
 def draw_particulars(demographics: Demographics, rng: np.random.Generator) -> Particulars:
-    """Draw age, gender and handedness, each on its own."""
+    """Draw age, gender and handedness independently of each other."""
     years, shares = age_distribution(demographics.age_years)
     age = int(rng.choice(years, p=shares))
     gender = "female" if rng.random() < demographics.female_share else "male"
@@ -34,8 +34,8 @@ def draw_particulars(demographics: Demographics, rng: np.random.Generator) -> Pa
 def age_distribution(ages: AgeRange) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Return the whole years of age and the probability of each.
 
-    Of all distributions over these years with this mean and standard deviation, the one of
-    greatest entropy: it assumes nothing else.
+    It is the distribution of greatest entropy over these years with this mean and standard
+    deviation: it assumes nothing else.
 
     Examples
     --------

@@ -7,7 +7,7 @@ from participants.sight import Onlooker
 
 
 class Demonstrator(Assistant, Onlooker, Protocol):
-    """Who watches and takes over; as a shadow it is asked the same way and touches nothing.
+    """Watches and takes over; as a shadow it gets the same calls and its command does not count.
 
     In every step of every lap: ``look(sight)``, then ``assist(x)``.
     """

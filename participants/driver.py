@@ -1,4 +1,4 @@
-"""The seam every driver fits: autonomous, human-like, replayed, or alive."""
+"""The seam every driver fits: autonomous, human-like, replayed, or a living person."""
 
 from typing import Literal, Protocol, get_args
 
@@ -14,11 +14,11 @@ PARTICIPANT_KINDS: tuple[ParticipantKind, ...] = get_args(ParticipantKind)
 
 
 class WithdrewError(Exception):
-    """The participant ends the session; the message says why, in the participant's terms."""
+    """The participant ends the session; the message is the reason, in the participant's words."""
 
 
 class Driver(Protocol):
-    """Who sits in the wheelchair. An attribute ``kind`` may say what it is (``kind_of``)."""
+    """Drives the wheelchair. An attribute ``kind`` may tell what it is (``kind_of``)."""
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:
         """Get ready for a lap.
@@ -32,7 +32,7 @@ class Driver(Protocol):
         """
 
     def act(self, sight: Sight) -> Command | None:
-        """Answer what one sees with a command; None when there is no new one yet.
+        """Return a command for what there is to see; None when there is no new one yet.
 
         Raises
         ------
@@ -42,14 +42,14 @@ class Driver(Protocol):
 
 
 def kind_of(driver: Driver) -> ParticipantKind:
-    """Return what a driver says that it is; synthetic for one that does not say.
+    """Return a driver's ``kind``; synthetic for a driver without one.
 
     Raises
     ------
     ValueError
-        When it says something else than ``PARTICIPANT_KINDS``.
+        When it is none of ``PARTICIPANT_KINDS``.
     """
     kind: ParticipantKind = getattr(driver, "kind", "synthetic")
     if kind not in PARTICIPANT_KINDS:
-        raise ValueError(f"a driver is {', '.join(PARTICIPANT_KINDS)}; this one says {kind!r}")
+        raise ValueError(f"driver: kind {kind!r}; allowed: {', '.join(PARTICIPANT_KINDS)}")
     return kind

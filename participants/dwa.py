@@ -1,3 +1,4 @@
+# ruff: noqa: PLR0917  # compiled code takes arrays apart from objects
 """The Dynamic Window Approach: velocities the chair can reach, may drive, and likes best.
 
 Fox, Burgard & Thrun (1997), The dynamic window approach to collision avoidance, IEEE Robotics &
@@ -8,10 +9,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lad.command import STILL, Command
 from lad.compiled import compiled
+from participants.planning.field import DistanceField
 from participants.planning.sweep import advance, arc_end
 from protocols.wheelchair import ACCELERATION, MAX_SPEED, MAX_TURN_RATE, TURN_ACCELERATION
 
@@ -25,11 +26,11 @@ class DynamicWindow:
     heading, clearance, velocity
         Weights of the objective's three parts, each between 0 and 1.
     interval
-        How long the chair accelerates before velocities count as reached, s.
+        How long the chair accelerates before it is assumed to have reached a velocity, s.
     horizon
-        How far ahead an arc is looked at, s.
+        How far ahead an arc is checked, s.
     prediction
-        When the direction to the target is judged, s ahead.
+        How far ahead the direction to the target is judged, s.
     speeds, turns
         How many translational and rotational velocities are tried.
     """
@@ -61,7 +62,7 @@ class Choice:
 
 
 def choose(
-    field: NDArray[np.float64],
+    field: DistanceField,
     velocity: Command,
     target: tuple[float, float],
     settings: DynamicWindow,
@@ -87,7 +88,7 @@ def choose(
     vs = np.linspace(low_v, high_v, s.speeds)
     ws = np.linspace(low_w, high_w, s.turns)
     weights = np.array([s.heading, s.clearance, s.velocity, s.horizon, s.prediction])
-    v, w, score = _best(field, vs, ws, np.array(target), weights)
+    v, w, score = _best(*field, vs, ws, np.array(target), weights)
     return Choice(Command(v, w) if np.isfinite(score) else STILL, score)
 
 
@@ -98,11 +99,11 @@ def _reach(now: float, change: float, lowest: float, highest: float) -> tuple[fl
 
 
 @compiled
-def _best(field: Any, vs: Any, ws: Any, target: Any, weights: Any) -> Any:
+def _best(known: Any, rows: Any, columns: Any, vs: Any, ws: Any, target: Any, weights: Any) -> Any:
     """Return (v, w, score) of the best admissible pair; score -inf when there is none.
 
-    No arc can score more than with all clearance there is, so pairs are looked at from the most
-    promising on, until none of the rest can be better: the answer is that of looking at all.
+    No arc scores more than it would with full clearance. So pairs are checked in the order of that
+    bound, until no other pair can be better: the answer is the same as after checking all.
     """
     clearance_weight, horizon = weights[1], weights[3]
     promise = np.empty(len(vs) * len(ws))
@@ -114,7 +115,7 @@ def _best(field: Any, vs: Any, ws: Any, target: Any, weights: Any) -> Any:
         if promise[i] <= best:
             break
         v, w = vs[i // len(ws)], ws[i % len(ws)]
-        free, _ = advance(field, v, w, horizon)
+        free, _ = advance(known, rows, columns, v, w, horizon)
         # Admissible: the chair can stop before it touches anything (equation 14 of Fox).
         brakes = v <= 2 * ACCELERATION * free and abs(w) <= 2 * TURN_ACCELERATION * free
         score = promise[i] - clearance_weight * (1.0 - free / horizon)

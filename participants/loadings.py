@@ -1,6 +1,6 @@
 """What moves a synthetic respondent's answers, item by item.
 
-Assumptions of the simulation, not findings: their signs follow from what the statements say, their
+Assumptions of the simulation, not findings: their signs follow from the statements, their
 sizes are round numbers in units of the latent answer's noise. Whatever percentage of agreement a
 simulated study shows is a consequence of this table.
 """
@@ -17,25 +17,25 @@ from participants.survey import LapExperience
 Weight = Annotated[float, Field(ge=-10, le=10)]
 
 MOST_COLLISIONS = 5
-"""More contacts than these make no further impression."""
+"""More contacts than these change no answer further."""
 
 MUCH_HELP = 0.25
-"""Assistance in this share of the steps or more is felt as a lot."""
+"""Assistance in this share of the steps or more counts fully."""
 
 
 class Loadings(Options):
-    """How one item's latent answer depends on the lap as lived.
+    """How one item's latent answer depends on the experience of the lap.
 
     Attributes
     ----------
     intercept
-        Latent answer to a lap like one's own baseline; 0 is the middle of the scale.
+        Latent answer to a lap like the respondent's own baseline; 0 is the middle of the scale.
     slowness
-        Per unit of the logarithm of lap time over one's own baseline lap time.
+        Per unit of the logarithm of lap time over the respondent's own baseline lap time.
     help
-        For a lap with a lot of assistance, against one without any.
+        For a lap with full assistance, against a lap without any.
     opposition
-        For assistance that always opposed one, against assistance that never did.
+        For assistance that always opposed the driver, against assistance that never did.
     interruptions
         Per unit of the logarithm of one plus the number of interventions.
     collisions
@@ -62,8 +62,8 @@ class Loadings(Options):
         return self.intercept + felt + self.liking * liking
 
 
-def impression(lived: LapExperience) -> dict[str, float]:
-    """Return a lap as it was lived in the terms of ``Loadings``.
+def impression(experience: LapExperience) -> dict[str, float]:
+    """Return the experience of a lap in the terms of ``Loadings``.
 
     Examples
     --------
@@ -74,15 +74,17 @@ def impression(lived: LapExperience) -> dict[str, float]:
     >>> sorted(set(impression(lap).values()))
     [0.0]
     """
-    baseline = lived.baseline_time if lived.baseline_time is not None else lived.lap_time
-    assisted = lived.assisted_fraction
+    baseline = (
+        experience.baseline_time if experience.baseline_time is not None else experience.lap_time
+    )
+    assisted = experience.assisted_fraction
     return {
-        "slowness": math.log(lived.lap_time / baseline),
+        "slowness": math.log(experience.lap_time / baseline),
         "help": min(assisted / MUCH_HELP, 1.0),
-        "opposition": min(lived.interference / assisted, 1.0) if assisted > 0.0 else 0.0,
-        "interruptions": math.log1p(lived.interventions),
-        "collisions": float(min(lived.collisions, MOST_COLLISIONS)),
-        "unfinished": float(not lived.completed),
+        "opposition": min(experience.interference / assisted, 1.0) if assisted > 0.0 else 0.0,
+        "interruptions": math.log1p(experience.interventions),
+        "collisions": float(min(experience.collisions, MOST_COLLISIONS)),
+        "unfinished": float(not experience.completed),
     }
 
 

@@ -31,14 +31,14 @@ class Localisation:
         self._t: float | None = None
 
     def estimate(self, t: float, pose: Pose) -> Pose:
-        """Return where one believes to be.
+        """Return the estimated pose.
 
         Parameters
         ----------
         t
             Now, s; not before the last call's.
         pose
-            Where one is.
+            The true pose.
         """
         passed = 0.0 if self._t is None else t - self._t
         self._t = t

@@ -6,16 +6,17 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from protocols.files.errors import InputError
+from protocols.files.wording import shown
 
 
 class Options(BaseModel):
-    """What a component may be told; a subclass names each option, its type and its range."""
+    """Options of a component; a subclass names each option, its type and its range."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
 
 class NoOptions(Options):
-    """A component that cannot be told anything."""
+    """Options of a component that has none."""
 
 
 Given = TypeVar("Given", bound=Options)
@@ -27,11 +28,11 @@ def read_options(who: str, kind: type[Given], given: Mapping[str, Any]) -> Given
     Parameters
     ----------
     who
-        Whose options they are, for the message, e.g. ``"driver 'human'"``.
+        The component whose options they are, for the message, e.g. ``"driver 'human'"``.
     kind
         What is allowed.
     given
-        What the protocol says.
+        What the protocol gives.
 
     Raises
     ------
@@ -49,4 +50,7 @@ def _fault(who: str, kind: type[Options], item: Any) -> str:
     if item["type"] == "extra_forbidden" and len(item["loc"]) == 1:
         allowed = ", ".join(kind.model_fields) or "it takes no options"
         return f"{who}: option {where!r} does not exist; allowed: {allowed}"
-    return f"{who}: option {where!r}: {item['msg']} (given {item['input']!r})"
+    said = item["msg"].removeprefix("Value error, ")
+    if not where:
+        return f"{who}: {said}"
+    return f"{who}: option {where!r}: {said} (given {shown(item['input'])})"

@@ -21,7 +21,7 @@ class Page:
     kind
         What it is for.
     text
-        What it says.
+        Its words.
     fields
         What is asked for on it, by name.
     seconds
@@ -50,7 +50,7 @@ class PageReader(Protocol):
 
 
 class SimulatedReader:
-    """A synthetic participant: agrees, and fills in what it is.
+    """A synthetic participant: agrees, and fills in its particulars.
 
     Parameters
     ----------

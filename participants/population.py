@@ -1,8 +1,8 @@
 """How traits are distributed over people.
 
-Every trait is a standard normal latent variable squeezed into the trait's range: a value halfway
+Every trait is a standard normal latent variable mapped into the trait's range: a value halfway
 through the range on the logit scale for the median person, spread on that scale. The latent
-variables are correlated between people: who reacts late also tends to drive slowly.
+variables are correlated between people: a person who reacts late also tends to drive slowly.
 """
 
 import math
@@ -17,7 +17,7 @@ from participants.traits import ResponseStyle, Trait, Traits, declared
 from protocols.files.errors import InputError
 
 TRAITS: Mapping[str, Trait] = {**declared(Traits), **declared(ResponseStyle)}
-"""Every trait there is, by name."""
+"""Every trait, by name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +103,7 @@ class Population:
             ) from None
 
     def with_marginals(self, others: Mapping[str, Marginal]) -> "Population":
-        """Return a population in which some traits are distributed otherwise.
+        """Return a population in which some traits have another distribution.
 
         Raises
         ------
@@ -176,7 +176,6 @@ PEOPLE = Population(
 """The people a synthetic cohort is drawn from.
 
 Medians and spreads of inexperience and of the pause when limited are calibrated
-(``bench/calibrate_cohort.py``); those of the practice exponent and of the share that sits in
-corners are priors. Where every other number comes from, and which are assumptions, is in
-docs/cohort.md.
+(``bench/calibrate_cohort.py``); those of the practice exponent and of the corners' share are
+priors. docs/cohort.md lists the source of every other number, and which are assumptions.
 """

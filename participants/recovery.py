@@ -1,12 +1,10 @@
-"""Getting free: notice that one does not get on, look around, and try a small movement."""
+"""Getting free: notice that the chair is stuck, look around, and try a small movement."""
 
 import math
 from collections.abc import Callable, Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
 from lad.command import Command
+from participants.planning.field import DistanceField
 from participants.planning.surroundings import map_field
 from participants.planning.sweep import sweep
 from participants.sight import Sight
@@ -18,10 +16,10 @@ MOVING = 0.03
 """Velocities below this count as standing, m/s and rad/s."""
 
 PLACE, WAY = 0.25, 0.6
-"""Whoever has moved farther than this, m, or turned by more, rad, is somewhere else."""
+"""A chair that has moved farther than this, m, or turned by more, rad, is in another place."""
 
 LINGERING = 12.0
-"""Wanting to move and staying in one place for longer means being stuck, too, s."""
+"""A driver who wants to move but stays in one place for longer is stuck, too, s."""
 
 LONGEST, SHORTEST = 1.5, 0.5
 """How long a movement is tried, s."""
@@ -32,23 +30,23 @@ MOVEMENTS = tuple(
     for share in (-1.0, -0.5, 0.0, 0.5, 1.0)
     if (v, share) != (0.0, 0.0)
 )
-"""What one may try, m/s and rad/s."""
+"""The movements to try, m/s and rad/s."""
 
 REVERSING = 0.3
-"""How much less a movement backwards is liked, as a score."""
+"""How much the score of a movement backwards is reduced."""
 
 
 class Recovery:
     """One lap's attempts of one driver to get free.
 
-    Each movement is tried once at one place, the most promising first; then one starts again.
+    Each movement is tried once at one place, the most promising first; then all are tried again.
 
     Parameters
     ----------
     raster
-        What stands where: people look over their shoulder, a navigation stack has a map.
+        Where obstacles are: people look over their shoulder, a navigation stack has a map.
     patience
-        Standing against one's will for longer means being stuck, s.
+        A driver who wants to move but stands for longer is stuck, s.
     """
 
     def __init__(self, raster: Occupancy, patience: float) -> None:
@@ -68,18 +66,18 @@ class Recovery:
         error: float,
         obeys: Callable[[float], float] = lambda _: 1.0,
     ) -> Command | None:
-        """Return the movement to try now; None while one gets on as one wants.
+        """Return the movement to try now; None while the chair is not stuck.
 
         Parameters
         ----------
         sight
             What there is to see now.
         wanted
-            What one would have it do if nothing were in the way.
+            What the driver wants it to do when nothing is in the way.
         error
-            Direction to where one wants to go, as seen from the chair, rad.
+            Direction to where the driver wants to go, as seen from the chair, rad.
         obeys
-            How far one believes the chair obeys a turn rate, as a share of it.
+            The share of a turn rate that the driver believes the chair turns.
         """
         self._notice(sight, wanted)
         if sight.t < self._until:
@@ -96,7 +94,7 @@ class Recovery:
         return movement
 
     def helped(self) -> None:
-        """Forget it all: somebody else moves the chair."""
+        """Forget all attempts: the assistant moves the chair."""
         self._standing = self._lingering = 0.0
         self._tried.clear()
         self._until = -math.inf
@@ -116,7 +114,7 @@ class Recovery:
 
 
 def _most_promising(
-    field: NDArray[np.float64],
+    field: DistanceField,
     error: float,
     obeys: Callable[[float], float],
     tried: Sequence[Command],

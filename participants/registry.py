@@ -1,30 +1,30 @@
 """Where a name in a protocol becomes a driver, an impairment, a demonstrator or a respondent.
 
-A name is a shipped one (``protocols.shipped_parts``), or a dotted path ``package.module:factory``
-to a function that takes the setup (see ``participants.setup``) and returns the part; that of an
-impairment returns a driver around the one it is given. Nothing has to be edited here to add one.
+A name is a shipped one (``protocols.shipped_parts``), one that an installed package declares, or
+``module:factory`` of a module beside the protocol file (``protocols.parts``). The factory takes the
+setup (see ``participants.setup``) and returns the part; that of an impairment returns a driver
+around the one it is given. Nothing has to be edited here to add one.
+
+``code``, everywhere: the parts beside the protocol file that may be run, ``ResolvedStudy.code``.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, cast
 
 from participants.demonstrator import Demonstrator
 from participants.driver import Driver, kind_of
-from participants.part_loader import load_factory, refuse_missing_methods
+from participants.part_loader import load_factory, refuse_missing_methods, shipped_function
 from participants.setup import DemonstratorSetup, DriverSetup, ImpairmentSetup, RespondentSetup
 from participants.survey import Respondent
+from protocols.code_beside import PartBeside
 from protocols.files.errors import InputError
-from protocols.shipped_parts import (
-    DEMONSTRATORS,
-    DRIVERS,
-    IMPAIRMENTS,
-    PORTABLE_OPTIONS,
-    RESPONDENTS,
-)
+from protocols.shipped_parts import PORTABLE_OPTIONS, Role
+
+Code = Sequence[PartBeside]
 
 
-def make_driver(name: str, setup: DriverSetup) -> Driver:
+def make_driver(name: str, setup: DriverSetup, code: Code = ()) -> Driver:
     """Return the driver a protocol names.
 
     Raises
@@ -32,10 +32,10 @@ def make_driver(name: str, setup: DriverSetup) -> Driver:
     InputError
         When there is no such driver, or it cannot be made with these options.
     """
-    return _driver("driver", DRIVERS, name, setup)
+    return _driver("driver", name, setup, code)
 
 
-def make_impaired(name: str, setup: ImpairmentSetup) -> Driver:
+def make_impaired(name: str, setup: ImpairmentSetup, code: Code = ()) -> Driver:
     """Return a driver with the impairment a protocol names.
 
     Raises
@@ -43,10 +43,10 @@ def make_impaired(name: str, setup: ImpairmentSetup) -> Driver:
     InputError
         When there is no such impairment, or it cannot be made with these options.
     """
-    return _driver("impairment", IMPAIRMENTS, name, setup)
+    return _driver("impairment", name, setup, code)
 
 
-def make_demonstrator(name: str, setup: DemonstratorSetup) -> Demonstrator:
+def make_demonstrator(name: str, setup: DemonstratorSetup, code: Code = ()) -> Demonstrator:
     """Return the demonstrator a protocol names; the same one serves as a shadow.
 
     Raises
@@ -55,10 +55,10 @@ def make_demonstrator(name: str, setup: DemonstratorSetup) -> Demonstrator:
         When there is no such demonstrator, or it cannot be made with these options.
     """
     methods = ("start_lap", "look", "assist")
-    return cast("Demonstrator", _make("demonstrator", DEMONSTRATORS, methods, name, setup))
+    return cast("Demonstrator", _make("demonstrator", methods, name, setup, code))
 
 
-def make_respondent(name: str, setup: RespondentSetup) -> Respondent:
+def make_respondent(name: str, setup: RespondentSetup, code: Code = ()) -> Respondent:
     """Return the respondent a protocol names.
 
     Raises
@@ -66,7 +66,7 @@ def make_respondent(name: str, setup: RespondentSetup) -> Respondent:
     InputError
         When there is no such respondent, or it cannot answer one of the questions.
     """
-    return cast("Respondent", _make("respondent", RESPONDENTS, ("answer",), name, setup))
+    return cast("Respondent", _make("respondent", ("answer",), name, setup, code))
 
 
 def portable_driver_options(name: str, options: Mapping[str, Any], folder: Path) -> dict[str, Any]:
@@ -79,12 +79,12 @@ def portable_driver_options(name: str, options: Mapping[str, Any], folder: Path)
     """
     if name not in PORTABLE_OPTIONS:
         return dict(options)
-    made: dict[str, Any] = load_factory("driver", PORTABLE_OPTIONS, name)(options, folder)
+    made: dict[str, Any] = shipped_function(PORTABLE_OPTIONS[name])(options, folder)
     return made
 
 
-def _driver(role: str, shipped: Mapping[str, str], name: str, setup: object) -> Driver:
-    driver = cast("Driver", _make(role, shipped, ("start_lap", "act"), name, setup))
+def _driver(role: Role, name: str, setup: object, code: Code) -> Driver:
+    driver = cast("Driver", _make(role, ("start_lap", "act"), name, setup, code))
     try:
         kind_of(driver)
     except ValueError as error:
@@ -92,9 +92,7 @@ def _driver(role: str, shipped: Mapping[str, str], name: str, setup: object) -> 
     return driver
 
 
-def _make(
-    role: str, shipped: Mapping[str, str], methods: tuple[str, ...], name: str, setup: object
-) -> Any:
-    part = load_factory(role, shipped, name)(setup)
+def _make(role: Role, methods: tuple[str, ...], name: str, setup: object, code: Code) -> Any:
+    part = load_factory(role, name, code)(setup)
     refuse_missing_methods(role, name, part, methods)
     return part

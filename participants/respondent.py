@@ -20,12 +20,12 @@ NO_STYLE = ResponseStyle(acquiescence=0.0, extremity=1.0, liking=0.0, missing_sh
 
 
 class OrdinalOptions(Options):
-    """What a protocol may say about ordinal respondents.
+    """What a protocol may set for ordinal respondents.
 
     Attributes
     ----------
     loadings
-        By instrument and item: what moves answers to items of one's own instruments, or other
+        By instrument and item: what moves answers to items of your own instruments, or other
         numbers for the shipped ones.
     """
 
@@ -35,8 +35,9 @@ class OrdinalOptions(Options):
 class OrdinalRespondent:
     """An ordered probit model of one person.
 
-    The latent answer is the item's loadings on the lap as lived, plus the person's acquiescence,
-    plus standard normal noise; extremity stretches it. The scale's cuts lie one apart around 0.
+    The latent answer is the item's loadings on the experience of the lap, plus the person's
+    acquiescence, plus standard normal noise; extremity stretches it. The scale's cuts are one
+    apart around 0.
 
     Parameters
     ----------
@@ -53,22 +54,22 @@ class OrdinalRespondent:
         self._style = style
 
     def answer(
-        self, questions: Sequence[Question], lived: LapExperience, rng: np.random.Generator
+        self, questions: Sequence[Question], experience: LapExperience, rng: np.random.Generator
     ) -> tuple[Answer, ...]:
         """Answer the questions about one lap; None where one was left out."""
-        felt = impression(lived)
-        # The same draws for every item, answered or not: one item's fate moves no other's.
-        noise, luck = rng.normal(size=len(questions)), rng.random(len(questions))
+        felt = impression(experience)
+        # The same draws for every item, answered or not: leaving one out changes no other answer.
+        noise, draws = rng.normal(size=len(questions)), rng.random(len(questions))
         return tuple(
             None
-            if luck[i] < self._style.missing_share
+            if draws[i] < self._style.missing_share
             else self._choose(question, felt, float(noise[i]))
             for i, question in enumerate(questions)
         )
 
     def _choose(self, question: Question, felt: Mapping[str, float], noise: float) -> Answer:
         if question.answer == "text":
-            return None  # nobody has modelled what people write
+            return None  # the model has no opinion in words
         style = self._style
         item = self._loadings[question.instrument, question.item]
         opinion = item.latent(felt, style.liking) + style.acquiescence + noise

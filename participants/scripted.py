@@ -24,7 +24,7 @@ ALLOWED = f"allowed: a CSV file with columns {', '.join(COLUMNS)}, times rising 
 
 
 class ScriptedOptions(Options):
-    """What a protocol says about a scripted driver: exactly one of the two.
+    """What a protocol may set for a scripted driver: exactly one of the two.
 
     Attributes
     ----------
@@ -45,13 +45,13 @@ class ScriptedOptions(Options):
 
 
 class ScriptedDriver:
-    """Says in every lap what the log says for that time; after its end, the chair stands.
+    """Gives in every lap the log's command for that time; after its end, the chair stands.
 
     Parameters
     ----------
     log
-        Shape (n, 3): times in s, rising; commands in m/s and rad/s. Each command holds until the
-        next one; before the first, the chair stands.
+        Shape (n, 3): times in s, rising; commands in m/s and rad/s. Each command is in force until
+        the next one; before the first, the chair stands.
     where
         Where the log comes from, for the message.
 
@@ -75,11 +75,11 @@ class ScriptedDriver:
         """Start the log again; nothing is random."""
 
     def act(self, sight: Sight) -> Command:
-        """Say what the log says for now, whatever there is to see."""
+        """Return the log's command for now, whatever there is to see."""
         return self.command_at(sight.t)
 
     def command_at(self, t: float) -> Command:
-        """Return the command that holds at a time, s."""
+        """Return the command that is in force at a time, s."""
         row = int(np.searchsorted(self._log[:, 0], t + 1e-9, side="right")) - 1
         if row < 0:
             return STILL
@@ -102,14 +102,14 @@ def read_log(path: Path) -> NDArray[np.float64]:
     Raises
     ------
     InputError
-        When the file cannot be read, lacks a column, or holds something that is no number; with
+        When the file cannot be read, lacks a column, or holds something that is not a number; with
         the line.
     """
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             lines = list(csv.reader(file))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        reason = getattr(error, "strerror", None) or "it is no text in CSV form"
+        reason = getattr(error, "strerror", None) or "it is not text in CSV form"
         raise InputError(f"{path}: cannot be read as a command log ({reason}); {ALLOWED}") from None
     header = [name.strip() for name in lines[0]] if lines else []
     missing = [name for name in COLUMNS if name not in header]
@@ -160,8 +160,8 @@ def scripted_driver(setup: DriverSetup) -> ScriptedDriver:
 def portable_options(options: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """Return options that do not need the command log's file any more: it is read here and now.
 
-    Sessions may run on machines that do not have the file, and the study directory says what was
-    driven even when the file is gone.
+    Sessions may run on machines that do not have the file, and the study directory still contains
+    the commands when the file is gone.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What a factory of people gets to work with."""
+"""What the factories of drivers, demonstrators and respondents get."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -15,7 +15,7 @@ from protocols.course.schema import Course
 
 @dataclass(frozen=True, slots=True)
 class DriverSetup:
-    """What a driver is made of.
+    """What a driver is made from.
 
     Attributes
     ----------
@@ -24,7 +24,7 @@ class DriverSetup:
     rng
         The driver's own random numbers for the whole session; each lap brings its own.
     traits
-        Who the driver is; None for drivers that are no persons.
+        How the person drives; None for drivers that are not people.
     options
         The protocol's options for this driver, as written in the file.
     folder
@@ -40,12 +40,12 @@ class DriverSetup:
 
 @dataclass(frozen=True, slots=True)
 class ImpairmentSetup:
-    """What an impairment is made of.
+    """What an impairment is made from.
 
     Attributes
     ----------
     driver
-        Whose commands it changes.
+        The driver whose commands it changes.
     severity
         From none, 0, to severe, 1.
     rng
@@ -62,7 +62,7 @@ class ImpairmentSetup:
 
 @dataclass(frozen=True, slots=True)
 class DemonstratorSetup:
-    """What a demonstrator is made of.
+    """What a demonstrator is made from.
 
     Attributes
     ----------
@@ -81,7 +81,7 @@ class DemonstratorSetup:
 
 @dataclass(frozen=True, slots=True)
 class RespondentSetup:
-    """What a survey respondent is made of.
+    """What a survey respondent is made from.
 
     Attributes
     ----------

@@ -1,7 +1,6 @@
-"""What somebody in the room perceives in one step."""
+"""What a driver or demonstrator in the room perceives in one step."""
 
-from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +9,7 @@ from lad.command import Command
 from protocols.pose import Pose
 
 
-@dataclass(frozen=True, slots=True)
-class Sight:
+class Sight(NamedTuple):
     """The room as a person in it, or a navigation stack with a map, perceives it.
 
     Attributes
@@ -19,7 +17,7 @@ class Sight:
     t
         Seconds since the lap started.
     pose
-        Where one sees oneself (a person), or localises oneself (a navigation stack).
+        The chair's pose as a person sees it, or as a navigation stack estimates it.
     velocity
         The chair's velocities as felt, or from odometry.
     ranges
@@ -29,9 +27,9 @@ class Sight:
     laser
         The sensor's mounting point ahead of the driven axle, in metres.
     gates_passed
-        How many gates lie behind.
+        How many gates the chair has passed.
     helped
-        Whether somebody else's command moved the chair in the step before: one notices.
+        Whether the assistant's command moved the chair in the step before; people notice it.
     """
 
     t: float
@@ -46,7 +44,7 @@ class Sight:
 
 @runtime_checkable
 class Onlooker(Protocol):
-    """An assistant who sees the room. The learned model is none: it gets its 19 inputs only."""
+    """An assistant that sees the room. The learned model does not: it gets only its 19 inputs."""
 
     def look(self, sight: Sight) -> None:
         """See the room as it is now; called before ``assist`` in every step."""

@@ -52,7 +52,7 @@ class Question:
 
 @dataclass(frozen=True, slots=True)
 class LapExperience:
-    """A lap as its driver lived it.
+    """A lap as its driver experienced it.
 
     Attributes
     ----------
@@ -61,11 +61,11 @@ class LapExperience:
     baseline_time
         The same person's own baseline lap in seconds; None when there was none before.
     assisted_fraction
-        Share of steps in which somebody else's command counted, in [0, 1].
+        Share of steps in which the assistant's command counted, in [0, 1].
     interventions
         Number of unbroken stretches of assistance.
     interference
-        Share of steps in which the assistant opposed what the user wanted, in [0, 1].
+        Share of steps in which the assistant opposed what the driver wanted, in [0, 1].
     collisions
         Number of contacts with obstacles.
     completed
@@ -82,10 +82,10 @@ class LapExperience:
 
 
 class Respondent(Protocol):
-    """Who fills in the questionnaires."""
+    """Fills in the questionnaires."""
 
     def answer(
-        self, questions: Sequence[Question], lived: LapExperience, rng: np.random.Generator
+        self, questions: Sequence[Question], experience: LapExperience, rng: np.random.Generator
     ) -> tuple[Answer, ...]:
         """Answer the questions about one lap.
 
@@ -93,8 +93,8 @@ class Respondent(Protocol):
         ----------
         questions
             What is asked, in the order asked.
-        lived
-            The lap as it was lived.
+        experience
+            The lap as its driver experienced it.
         rng
             This survey's own random numbers.
 

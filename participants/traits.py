@@ -1,7 +1,7 @@
 """What makes one person drive and answer differently from another.
 
 Each trait's unit is part of its name (``per_s``: 1/s; no suffix: no unit), its range and source
-stand here; how traits are distributed over people stands in ``participants.cohort``.
+are here; how traits are distributed over people is in ``participants.population``.
 """
 
 from dataclasses import dataclass, fields
@@ -43,7 +43,7 @@ class Traits(_Ranged):
     preferred_speed_m_s
         Speed on a free straight once practised.
     lookahead_s
-        How far ahead one aims, in seconds of travel.
+        How far ahead the person aims, in seconds of travel.
     reaction_delay_s
         From seeing to the hand's beginning to move.
     stick_lag_s
@@ -53,13 +53,13 @@ class Traits(_Ranged):
     motor_noise
         Standard deviation of the stick's deflection as a share of the deflection.
     corner_speed_m_s
-        Speed kept in a sharp corner; below the stick's dead band one stops to turn.
+        Speed kept in a sharp corner; below the stick's dead band the person stops to turn.
     corner_deflection
         Share of full deflection used to turn in a sharp corner once practised.
     corner_pause_s
-        Hesitation at a sharp corner per unit of inexperience that sits in corners.
+        Hesitation at a sharp corner per unit of the corners' inexperience.
     clearance_m
-        Distance from obstacles below which one slows down.
+        Distance from obstacles below which the person slows down.
     lane_offset_m
         Habitual distance from the middle of the way, left positive.
     inexperience
@@ -69,15 +69,15 @@ class Traits(_Ranged):
     practice_exponent
         Inexperience in the n-th lap is that of the first times n to minus this power.
     compliance
-        Share of the deflection given up while somebody else drives.
+        Share of the deflection given up while the assistant drives.
     adaptation_per_s
-        How fast one notices that the chair turns less than asked.
+        How fast the person notices that the chair turns less than asked.
     limit_push
-        How far one then makes up for it: 0 not at all, 1 until the stick's end.
+        How far the person then compensates: 0 not at all, 1 until the stick's end.
     limit_pause_s
-        How long one stops to wonder the first time a chair turns a third as fast as asked.
+        How long the person stops the first time the chair turns a third as fast as asked.
     patience_s
-        Time in one lap after which one thinks of giving up.
+        Time in one lap after which the person may give up.
 
     Raises
     ------

@@ -1,1 +1,1 @@
-"""What a study is, and what it leaves behind. Knows no simulator."""
+"""What a study is, and what it records. Knows no simulator."""

@@ -5,13 +5,13 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from protocols.orders import Order, designed_orders, legal_orders, moved_conditions
-from protocols.shipped_parts import MODELS
+from protocols.shipped_parts import LAD
 from protocols.study import StudyProtocol
 
 
 def orders_of(protocol: StudyProtocol) -> tuple[Order, ...]:
     """Return the orders of the conditions that participants of a study may drive."""
-    taught = protocol.model.use not in MODELS
+    taught = protocol.model.use != LAD
     return legal_orders(protocol.orders, protocol.laps, protocol.conditions, taught=taught)
 
 

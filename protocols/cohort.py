@@ -5,11 +5,11 @@ from typing import Annotated, Any, Self
 
 from pydantic import Field, model_validator
 
-from protocols.files.file_model import FileModel, Name, shipped_or_factory
+from protocols.files.file_model import FileModel, Name, part_name
 from protocols.shipped_parts import DEMONSTRATORS, DRIVERS, IMPAIRMENTS, RESPONDENTS
 
 Options = dict[str, Any]
-"""Settings handed to the component as keyword arguments; the component checks them."""
+"""Settings for the component, as keyword arguments; the component checks them."""
 
 Share = Annotated[float, Field(ge=0, le=1)]
 
@@ -48,45 +48,45 @@ class Demographics(FileModel):
 
 
 class DriverChoice(FileModel):
-    """Who sits in the wheelchair."""
+    """Who drives the wheelchair."""
 
-    use: shipped_or_factory(*DRIVERS) = "human"  # type: ignore[valid-type]
+    use: part_name(*DRIVERS) = "human"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
 
 
 class DemonstratorChoice(FileModel):
-    """Who watches and takes over, or as a shadow says what they would do."""
+    """Who watches and takes over, or as a shadow gives the command that does not count."""
 
-    use: shipped_or_factory(*DEMONSTRATORS) = "attentive"  # type: ignore[valid-type]
+    use: part_name(*DEMONSTRATORS) = "attentive"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
 
 
 class RespondentChoice(FileModel):
     """Who answers the questions."""
 
-    use: shipped_or_factory(*RESPONDENTS) = "ordinal"  # type: ignore[valid-type]
+    use: part_name(*RESPONDENTS) = "ordinal"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
 
 
 class ImpairmentChoice(FileModel):
-    """What the bodies of some participants do to their own intentions.
+    """An impairment that changes the commands of some participants.
 
     Attributes
     ----------
     share
-        Probability that a participant has it; nobody has more than one.
+        Probability that a participant has it; a participant has at most one.
     severity
-        From none to severe; what that means is the impairment's.
+        From none to severe; the impairment defines its meaning.
     """
 
-    use: shipped_or_factory(*IMPAIRMENTS)  # type: ignore[valid-type]
+    use: part_name(*IMPAIRMENTS)  # type: ignore[valid-type]
     share: Share = 1.0
     severity: Annotated[float, Field(ge=0, le=1)] = 0.5
     options: Options = Field(default_factory=dict)
 
 
 class TraitDistribution(FileModel):
-    """How one trait is distributed over synthetic people, instead of as calibrated.
+    """How one trait is distributed over synthetic people, in place of the calibrated distribution.
 
     Attributes
     ----------
@@ -120,7 +120,7 @@ class Cohort(FileModel):
     demonstrator: DemonstratorChoice | None = DemonstratorChoice()
     respondent: RespondentChoice | None = RespondentChoice()
     demographics: Demographics = Demographics()
-    impairments: tuple[ImpairmentChoice, ...] = ()
+    impairments: Annotated[tuple[ImpairmentChoice, ...], Field(max_length=100)] = ()
     traits: dict[Name, TraitDistribution] = Field(default_factory=dict)
     expected_dropout: Annotated[float, Field(ge=0, lt=1)] = 0.0
 
@@ -130,6 +130,6 @@ class Cohort(FileModel):
         if total > 1.0 + 1e-9:
             raise ValueError(
                 f"the shares of the impairments add up to {total:g}; allowed: 1 at most, "
-                "nobody has more than one"
+                "a participant has at most one"
             )
         return self

@@ -1,4 +1,4 @@
-"""Conditions: what the study does to a lap."""
+"""Conditions: limitation, assistance and safeguard of a lap."""
 
 from typing import Annotated, Literal, Self
 
@@ -27,7 +27,7 @@ class Condition(FileModel):
     assistant
         Who may help.
     arbitration
-        How the driver's and the assistant's commands become one.
+        How the driver's and the assistant's commands are combined.
     safeguard
         Whether the last guard against hard collisions is on.
     training

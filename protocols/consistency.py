@@ -68,7 +68,7 @@ def _absent_faults(
             yield Fault(("conditions", name, "assistant"), message)
     for i, lap in enumerate(laps):
         if cohort.respondent is None and lap.survey:
-            message = "nobody answers; allowed: no survey, or cohort.respondent"
+            message = "there is no respondent; allowed: no survey, or cohort.respondent"
             yield Fault(("laps", i, "survey"), message)
 
 
@@ -88,7 +88,7 @@ def _lap_faults(
         if condition is None:
             message = _unknown_condition(lap.condition, conditions)
             yield Fault(("laps", i, "condition"), message)
-            trained = True  # an unknown lap may have been the training: no second-hand fault
+            trained = True  # an unknown lap may have been the training: report only the first fault
             continue
         if condition.assistant == "model" and condition.model == "own" and not trained:
             message = (

@@ -7,7 +7,7 @@ from protocols.declared import Exclusion
 
 
 class DrivenLap(Protocol):
-    """What the rules look at."""
+    """What the rules need to know of a lap."""
 
     @property
     def practice(self) -> bool:

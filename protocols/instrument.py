@@ -6,7 +6,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from protocols.files.fault import Fault, InconsistentError
-from protocols.files.file_model import FileModel, Name
+from protocols.files.file_model import FileModel, FormatVersion, Name
 
 ItemId = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]+$", max_length=40)]
 
@@ -39,7 +39,7 @@ class Item(FileModel):
     """
 
     id: ItemId
-    text: Annotated[str, Field(min_length=1)]
+    text: Annotated[str, Field(min_length=1, max_length=5000)]
     subscale: Name = "total"
     reverse: bool = False
     asked: Literal["every lap", "assisted laps"] = "every lap"
@@ -96,14 +96,14 @@ class Instrument(FileModel):
         Where the wording comes from.
     """
 
-    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    schema_version: Annotated[Literal[1], FormatVersion, Field(alias="schema")] = 1
     name: Name
-    title: Annotated[str, Field(min_length=1)]
+    title: Annotated[str, Field(min_length=1, max_length=5000)]
     source: str = ""
     anchors: Annotated[tuple[str, ...], Field(max_length=11)] = ()
     agreement_from: Annotated[int, Field(ge=2)] = 2
     score: tuple[float, float] | None = None
-    items: Annotated[tuple[Item, ...], Field(min_length=1)]
+    items: Annotated[tuple[Item, ...], Field(min_length=1, max_length=500)]
 
     @model_validator(mode="after")
     def _parts_agree(self) -> Self:
@@ -169,7 +169,7 @@ class Instrument(FileModel):
         raise KeyError(item_id)
 
     def ids(self, *, assisted: bool) -> tuple[str, ...]:
-        """Return the ids of the items that apply to a lap in which somebody could help or not."""
+        """Return the ids of the items that apply to a lap with or without an assistant."""
         return tuple(i.id for i in self.items if assisted or i.asked == "every lap")
 
     def answering(self, item_or_subscale: str) -> tuple[str, ...]:

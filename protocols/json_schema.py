@@ -24,8 +24,8 @@ _MODELS: dict[str, type[BaseModel]] = {
 def json_schemas() -> dict[str, str]:
     """Return the text of every published schema by file name.
 
-    They say what a file may contain field by field; that its parts agree with one another is
-    checked by ``lad-study validate`` only.
+    They define what each field may contain. Only ``lad-study validate`` checks that the parts of a
+    file agree with one another.
     """
     return {name: _text(model) for name, model in _MODELS.items()}
 

@@ -16,7 +16,7 @@ class AskedInstrument(FileModel):
         A shipped instrument's name, or a file's path relative to the protocol file.
     items
         Ids of the items; ``all`` for every item that applies to the lap (an item about
-        assistance does not apply to a lap in which nobody could help).
+        assistance does not apply to a lap without an assistant).
     """
 
     instrument: Annotated[str, Field(min_length=1)]

@@ -1,10 +1,13 @@
 """Load a study and everything it refers to."""
 
 import hashlib
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from protocols.course.drivable import undrivable
 from protocols.course.schema import Course
+from protocols.files.document import spoken
 from protocols.files.errors import InputError
 from protocols.files.fault import Fault, Location
 from protocols.files.validation import validate
@@ -12,6 +15,7 @@ from protocols.instrument import Instrument
 from protocols.laps import AskedInstrument
 from protocols.model_choice import BorrowedModel
 from protocols.pages import Text
+from protocols.parts import parts_beside
 from protocols.questions import laps_with_items, question_faults, session_survey
 from protocols.record.header import read_header
 from protocols.resolved import ResolvedStudy
@@ -35,7 +39,7 @@ def shipped_instruments() -> tuple[str, ...]:
 
 
 def load_protocol(name_or_path: str) -> StudyProtocol:
-    """Return a protocol as its file says it, without looking up what it refers to.
+    """Return a protocol as it is in its file, without looking up what it refers to.
 
     Raises
     ------
@@ -51,7 +55,7 @@ def load_course(name_or_path: str) -> Course:
     Raises
     ------
     InputError
-        When there is no such file, its content is not a course, or nobody could drive it.
+        When there is no such file, its content is not a course, or it cannot be driven.
     """
     return _course(locate("courses", name_or_path))
 
@@ -103,7 +107,17 @@ def resolve_study(
     faults = tuple(question_faults(protocol, instruments))
     if faults:
         raise document.error(faults)
-    return _resolved(protocol, chosen, instruments, participants, source.folder)
+    beside = parts_beside(protocol, source.folder, document)
+    elsewhere = course is not None and chosen.name != protocol.course
+    study = _resolved(
+        protocol, chosen, instruments, participants, source.folder, driven_elsewhere=elsewhere
+    )
+    places = {
+        spoken(where): f"{document.source}:{line}"
+        for where, line in document.lines.items()
+        if where
+    }
+    return replace(study, beside=beside, places=places)
 
 
 def check_file(name_or_path: str) -> ResolvedStudy | Course | Instrument:
@@ -230,13 +244,22 @@ def _resolved(
     instruments: dict[str, Instrument],
     participants: int | None,
     folder: Path | None,
+    *,
+    driven_elsewhere: bool,
 ) -> ResolvedStudy:
     cohort = protocol.cohort
     if participants is not None:
         cohort = cohort.model_copy(update={"participants": participants})
     laps = laps_with_items(protocol, instruments)
     survey = session_survey(protocol, instruments)
-    changes = {"course": course.name, "laps": laps, "cohort": cohort, "survey": survey}
+    changes: dict[str, Any] = {
+        "course": course.name,
+        "laps": laps,
+        "cohort": cohort,
+        "survey": survey,
+    }
+    if driven_elsewhere:  # published figures belong to the course that the protocol names
+        changes["replicates"] = None
     return ResolvedStudy(
         protocol.model_copy(update=changes), course, tuple(instruments.values()), folder
     )

@@ -7,24 +7,24 @@ from pydantic import Field, model_validator
 
 from lad.hyperparameters import LADParameters
 from protocols.cohort import Options
-from protocols.files.file_model import FileModel, shipped_or_factory
-from protocols.shipped_parts import MODELS
+from protocols.files.file_model import FileModel, part_name
+from protocols.shipped_parts import LAD, MODELS
 
 
 class ModelChoice(FileModel):
     """The assistant that learns; Table I of the paper is the default.
 
-    ``parameters`` are those of the shipped model, ``options`` those of somebody else's.
+    ``parameters`` are those of ``lad``, ``options`` those of any other model.
     """
 
-    use: shipped_or_factory(*MODELS) = "lad"  # type: ignore[valid-type]
+    use: part_name(*MODELS) = LAD  # type: ignore[valid-type]
     parameters: LADParameters = LADParameters()
     options: Options = Field(default_factory=dict)
 
     @model_validator(mode="after")
     def _options_are_for_others(self) -> Self:
-        if self.use in MODELS and self.options:
-            raise ValueError("options are for a model of your own; lad takes parameters")
+        if self.use == LAD and self.options:
+            raise ValueError("options are for other models; lad takes parameters")
         return self
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from protocols.laps import PlannedLap
 from protocols.orders import Order, legal_orders, put_in_order
-from protocols.shipped_parts import MODELS
+from protocols.shipped_parts import LAD
 from protocols.study import StudyProtocol
 
 T = TypeVar("T")
@@ -119,7 +119,7 @@ def _order_of(protocol: StudyProtocol, number: int, seed: int) -> Order:
     if group is not None:
         index = sum(group_of(protocol, n, seed) == group for n in range(1, max(number, 1)))
     orders = legal_orders(
-        protocol.orders, protocol.laps, protocol.conditions, taught=protocol.model.use not in MODELS
+        protocol.orders, protocol.laps, protocol.conditions, taught=protocol.model.use != LAD
     )
     if protocol.orders.use == "all":
         return orders[index % len(orders)]

@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from protocols.files.file_model import FileModel
 
 Particular = Literal["age_years", "gender", "handedness"]
-"""What a participant can be asked about themselves."""
+"""What a participant can be asked about their own person."""
 
 
 class Text(FileModel):

@@ -1,4 +1,4 @@
-"""Where the wheelchair stands."""
+"""Where the wheelchair is."""
 
 from typing import NamedTuple
 

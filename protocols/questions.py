@@ -46,7 +46,7 @@ def session_survey(
 
 
 def question_faults(protocol: StudyProtocol, instruments: Instruments) -> Iterator[Fault]:
-    """Find questions that do not exist, and comparisons of answers that nobody is asked for."""
+    """Find questions that do not exist, and comparisons of answers that no lap asks for."""
     yield from _survey_faults(protocol, instruments)
     yield from _session_faults(protocol, instruments)
     yield from _outcome_faults(protocol, instruments)

@@ -3,7 +3,7 @@
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -87,9 +87,8 @@ class Registration:
 def plan_of(study: ResolvedStudy) -> dict[str, Any]:
     """Return everything that a registration freezes, as plain data."""
     unregistered = study.protocol.model_copy(update={"registration": None})
-    plain = ResolvedStudy(unregistered, study.course, study.instruments)
     return {
-        "study": identity(plain, None),
+        "study": identity(replace(study, protocol=unregistered), None),
         "participants": study.protocol.cohort.participants,
         "expected_dropout": study.protocol.cohort.expected_dropout,
         "versions": package_versions(),
@@ -220,7 +219,7 @@ def registered(study: ResolvedStudy, registration: Registration) -> ResolvedStud
             "as registered, or an amendment with its reason (lad-study preregister --amend)"
         )
     protocol = study.protocol.model_copy(update={"registration": registration.digest})
-    return ResolvedStudy(protocol, study.course, study.instruments, study.folder)
+    return replace(study, protocol=protocol)
 
 
 def plan_differences(study: ResolvedStudy, registration: Registration) -> Iterator[str]:

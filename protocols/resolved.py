@@ -1,8 +1,10 @@
-"""A study with everything it refers to: nothing left to look up."""
+"""A study with everything it refers to."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from protocols.code_beside import PartBeside
 from protocols.course.schema import Course
 from protocols.instrument import Instrument, Item
 from protocols.laps import AskedInstrument, PlannedLap
@@ -24,15 +26,35 @@ class ResolvedStudy:
     folder
         Where relative paths in the components' options start; None for a shipped protocol. Not
         part of what the study is.
+    beside
+        The parts whose code lies beside the protocol file; not part of what the study is.
+    places
+        Where the protocol file says what: file and line by field; empty for a recorded study.
+    trusted
+        Whether that code may be run: a person said so.
     """
 
     protocol: StudyProtocol
     course: Course
     instruments: tuple[Instrument, ...]
     folder: Path | None = field(default=None, compare=False)
+    beside: tuple[PartBeside, ...] = field(default=(), compare=False)
+    places: Mapping[str, str] = field(default_factory=dict, compare=False)
+    trusted: bool = field(default=False, compare=False)
+
+    @property
+    def code(self) -> tuple[PartBeside, ...]:
+        """The parts beside the protocol file whose code may be run."""
+        return self.beside if self.trusted else ()
+
+    def at(self, where: str) -> str:
+        """Return how a message about a field of the protocol begins: file, line, field."""
+        while where not in self.places and "." in where:
+            where = where.rpartition(".")[0]
+        return f"{self.places[where]}: {where}: " if where in self.places else ""
 
     def instrument(self, name: str) -> Instrument:
-        """Return the instrument of this name; ``KeyError`` when the study asks no such one."""
+        """Return the instrument of this name; ``KeyError`` when the study has none."""
         for instrument in self.instruments:
             if instrument.name == name:
                 return instrument

@@ -34,16 +34,18 @@ class Source:
     folder: Path | None
 
     def text(self) -> bytes:
-        """Return the content; ``InputError`` when it cannot be read."""
+        """Return the content, or its beginning where it is too large; ``InputError`` when none."""
         try:
-            with self.file.open("rb") as stream:
-                return stream.read(MAX_BYTES + 1)
+            with self.file.open("rb") as opened:
+                return opened.read(MAX_BYTES + 1)
         except OSError as error:
             raise InputError(f"{self.label}: cannot be read: {error.strerror}") from None
 
     def document(self) -> Document:
         """Return the content as YAML; ``InputError`` when it is none."""
-        return parse(self.text(), self.label)
+        content = self.text()
+        size = self.file.stat().st_size if isinstance(self.file, Path) else len(content)
+        return parse(content, self.label, max(size, len(content)))
 
 
 def shipped_names(kind: Kind) -> tuple[str, ...]:
@@ -58,7 +60,7 @@ def locate(kind: Kind, name_or_path: str, folder: Path | None = None) -> Source:
     Parameters
     ----------
     kind
-        What is looked for.
+        What to find.
     name_or_path
         As a person gave it.
     folder
@@ -100,6 +102,8 @@ def locate_text(name: str, folder: Path | None) -> str:
     """
     path = Path(name) if folder is None else folder / name
     try:
+        if path.exists() and not path.is_file():
+            raise InputError(f"{name}: is not a file; allowed: a text file")
         with path.open("rb") as stream:
             content = stream.read(MAX_BYTES + 1)
         text = content.decode("utf-8-sig")
@@ -113,16 +117,18 @@ def locate_text(name: str, folder: Path | None) -> str:
 
 
 def shipped_text(name: str) -> str:
-    """Return a shipped file of any kind as it stands, comments included.
+    """Return a shipped file of any kind unchanged, comments included.
 
     Raises
     ------
     InputError
-        When nothing of this name ships; lists what does.
+        When no shipped file has this name; lists the names there are.
     """
     kinds: tuple[Kind, ...] = ("studies", "courses", "instruments")
     for kind in kinds:
         if name in shipped_names(kind):
             return locate(kind, name).text().decode()
     every = [shipped for kind in kinds for shipped in shipped_names(kind)]
-    raise InputError(f"nothing that ships is named {name!r}; {allowed(name, every)}")
+    raise InputError(
+        f"no shipped protocol, course or instrument is named {name!r}; {allowed(name, every)}"
+    )

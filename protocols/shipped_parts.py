@@ -4,6 +4,7 @@ The one list of names: protocol files are checked against it, and parts are made
 """
 
 from collections.abc import Mapping
+from typing import Literal
 
 DRIVERS: Mapping[str, str] = {
     "human": "participants.human.driver:human_driver",
@@ -16,7 +17,51 @@ IMPAIRMENTS: Mapping[str, str] = {
 }
 DEMONSTRATORS: Mapping[str, str] = {"attentive": "participants.attentive:attentive_demonstrator"}
 RESPONDENTS: Mapping[str, str] = {"ordinal": "participants.respondent:ordinal_respondent"}
-MODELS: Mapping[str, str] = {"lad": "lad.lad_assistant:LADAssistant"}
+LAD = "lad"
+"""The model of the paper, the only one that takes ``parameters``."""
+
+MODELS: Mapping[str, str] = {
+    LAD: "lad.lad_assistant:LADAssistant",
+    "taught": "lad.trained:load",
+    "linear": "lad.baselines.linear:make",
+    "neighbours": "lad.baselines.neighbours:make",
+    "network": "lad.baselines.network:make",
+    "network-refitted": "lad.baselines.network:make_refitted",
+    "memoryless": "lad.baselines.memoryless:make",
+}
+
+Role = Literal["driver", "impairment", "demonstrator", "respondent", "model"]
+
+SHIPPED: Mapping[Role, Mapping[str, str]] = {
+    "driver": DRIVERS,
+    "impairment": IMPAIRMENTS,
+    "demonstrator": DEMONSTRATORS,
+    "respondent": RESPONDENTS,
+    "model": MODELS,
+}
+"""The names of each role's parts."""
 
 PORTABLE_OPTIONS: Mapping[str, str] = {"scripted": "participants.scripted:portable_options"}
 """For drivers whose options name a file: a function of options and folder that reads it."""
+
+
+def shipped_factory(role: Role, use: str) -> str | None:
+    """Return ``module:factory`` of a shipped part; None for what does not ship.
+
+    Protocols of earlier versions name our simpler models by the place of their factory: that
+    closed list stays known, so that their studies are what they were.
+
+    Examples
+    --------
+    >>> shipped_factory("model", "linear")
+    'lad.baselines.linear:make'
+    >>> shipped_factory("model", "lad.baselines.linear:make")
+    'lad.baselines.linear:make'
+    >>> shipped_factory("model", "subprocess:run") is None
+    True
+    """
+    factories = SHIPPED[role]
+    if use in factories:
+        return factories[use]
+    formerly = {factory for name, factory in MODELS.items() if name != LAD}
+    return use if role == "model" and use in formerly else None

@@ -1,4 +1,4 @@
-"""How exactly the chair is put at the start of a lap."""
+"""How exactly the chair is placed at the start of a lap."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""A study as data: what a protocol file may say."""
+"""A study as data: the fields of a protocol file."""
 
 from typing import Annotated, Literal, Self
 
@@ -8,14 +8,17 @@ from protocols.cohort import Cohort
 from protocols.condition import Condition
 from protocols.consistency import check_consistency
 from protocols.declared import Comparison, Exclusion
-from protocols.files.file_model import FileModel, Name
+from protocols.files.file_model import FileModel, FormatVersion, Name
 from protocols.groups import Group
 from protocols.laps import AskedInstrument, PlannedLap
 from protocols.model_choice import BorrowedModel, ModelChoice, Sha256
 from protocols.orders import Orders
 from protocols.pages import Consent, Particular, Text
-from protocols.shipped_parts import MODELS
+from protocols.shipped_parts import LAD
 from protocols.start_noise import StartNoise
+
+Publication = Literal["soh-demiris-2013"]
+"""Published studies that the analysis knows the figures of."""
 
 CasterName = Literal["sweep", "pybullet"]
 
@@ -65,10 +68,10 @@ class StudyProtocol(FileModel):
     laser
         The simulated laser.
     start_noise
-        How exactly the chair is put at the start.
+        How exactly the chair is placed at the start.
     hold_s
         How long a driver's last command stays in force without a new one, in s; then the chair is
-        told to stand.
+        told to stop.
     consent
         Shown, and agreed to, before anything else; null for none.
     demographics
@@ -77,35 +80,39 @@ class StudyProtocol(FileModel):
         What is asked once, after the last lap, about the whole session.
     debrief
         Shown after everything else; null for none.
+    replicates
+        The published study that this one repeats, whose figures its report shows beside its own;
+        null for a study of its own. It changes nothing that is run or recorded.
     """
 
-    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    schema_version: Annotated[Literal[1], FormatVersion, Field(alias="schema")] = 1
     name: Name
-    title: Annotated[str, Field(min_length=1)]
+    title: Annotated[str, Field(min_length=1, max_length=5000)]
     description: str = ""
     course: Annotated[str, Field(min_length=1)] = "lab-office"
     cohort: Cohort = Cohort()
-    conditions: Annotated[dict[Name, Condition], Field(min_length=1)]
+    conditions: Annotated[dict[Name, Condition], Field(min_length=1, max_length=200)]
     laps: Annotated[tuple[PlannedLap, ...], Field(min_length=1, max_length=200)]
     orders: Orders = Orders()
     groups: dict[Name, Group] = Field(default_factory=dict)
     model: ModelChoice = ModelChoice()
     models: dict[Name, BorrowedModel] = Field(default_factory=dict)
     exclusion: Exclusion = Exclusion()
-    analyses: tuple[Comparison, ...] = ()
+    analyses: Annotated[tuple[Comparison, ...], Field(max_length=500)] = ()
     control_period_s: Annotated[float, Field(ge=0.02, le=0.5)] = 0.1
     laser: LaserSettings = LaserSettings()
     start_noise: StartNoise = StartNoise()
     hold_s: Annotated[float, Field(gt=0, le=5)] = 0.3
     consent: Consent | None = None
-    demographics: tuple[Particular, ...] = ()
-    survey: tuple[AskedInstrument, ...] = ()
+    demographics: Annotated[tuple[Particular, ...], Field(max_length=100)] = ()
+    survey: Annotated[tuple[AskedInstrument, ...], Field(max_length=100)] = ()
     debrief: Text | None = None
+    replicates: Publication | None = None
     registration: Sha256 | None = None
 
     @model_validator(mode="after")
     def _parts_agree(self) -> Self:
-        taught = self.model.use not in MODELS  # what a model of one's own knows is not ours to say
+        taught = self.model.use != LAD  # what a model of one's own knows is not ours to say
         check_consistency(
             self.conditions,
             self.laps,

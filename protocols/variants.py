@@ -1,4 +1,4 @@
-"""Variants of the model whose results a study of robustness compares with the default's."""
+"""Variants of the model; a study of robustness compares their results with the default's."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -9,7 +9,7 @@ from protocols.model_choice import ModelChoice
 
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """A model beside the default one.
+    """Another model than the default one.
 
     Attributes
     ----------
@@ -20,9 +20,9 @@ class Variant:
     label
         How tables and figures call it within its group.
     model
-        As a protocol names it.
+        As in a protocol.
     same_probabilities
-        Whether p(h = 1 | x) is the default model's: only what is done with it differs.
+        Whether p(h = 1 | x) is the default model's, and only its use differs.
     """
 
     name: str
@@ -62,7 +62,7 @@ BASELINES = (
     _baseline("network-refitted", "neural network, refitted", "network:make_refitted"),
     _baseline("memoryless", "memoryless GP (τ = 1)", "memoryless:make"),
 )
-"""What a sceptic would try first; see ``lad.baselines``."""
+"""Simpler models; see ``lad.baselines``."""
 
 VARIANTS = (
     DEFAULT,

@@ -13,7 +13,7 @@ RECORDING_PACKAGES = (
     "scipy",
     "shapely",
 )
-"""Packages whose version can change a record."""
+"""Packages that can change a record with their version."""
 
 
 def package_versions(names: tuple[str, ...] = RECORDING_PACKAGES) -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""The wheelchair as everybody knows it: its size and what it can do.
+"""The wheelchair: its size, and its largest speeds and accelerations.
 
 A paediatric powered wheelchair like ARTY's (Soh & Demiris 2013, section V); the top speeds are
 those of section IV.A.
@@ -29,7 +29,7 @@ LASER_AHEAD = 0.60
 """The laser's mounting point ahead of the driven axle, m."""
 
 LASER_RANGE = 4.0
-"""A laser reading from here on means that nothing returned, m."""
+"""A laser reading of this or more means that nothing returned, m."""
 
 LASER_HEIGHT = 0.30
 """The laser's height above the floor, m: anything lower is not seen."""

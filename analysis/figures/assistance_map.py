@@ -11,6 +11,7 @@ from matplotlib.image import AxesImage
 
 from analysis.figures.plan import draw_plan
 from analysis.figures.style import GREY, new_figure, say_nothing_to_show
+from analysis.figures.text import wrapped
 from analysis.maps import Grid, counts, density, plan_grid, smoothed
 from analysis.measures.streams import Numbers
 from protocols.course.schema import Course
@@ -48,13 +49,13 @@ def assistance_map(steps: pd.DataFrame, course: Course, conditions: Sequence[str
         image = _density(axes, maps[condition], grid, top)
         _paths(axes, steps[steps["condition"] == condition])
         draw_plan(axes, course)
-        axes.set_title(condition, fontsize=10)
+        axes.set_title(wrapped(condition, 34, lines=3), fontsize=10)
     for axes in panels[len(conditions) :]:
         axes.axis("off")
     if image is not None:
         bar = figure.colorbar(image, ax=list(panels), orientation="horizontal", shrink=0.5,
                               aspect=30, pad=0.02)  # fmt: skip
-        bar.set_label("density of assisted steps / m$^{-2}$", fontsize=9)
+        bar.set_label("density of assisted steps / m⁻²", fontsize=9)
         bar.ax.tick_params(labelsize=8)
     return figure
 
@@ -75,10 +76,10 @@ def _density(axes: Axes, values: Numbers, grid: Grid, top: float) -> AxesImage:
 
 
 def _paths(axes: Axes, steps: pd.DataFrame) -> None:
-    everybody = steps["participant"].astype(str).unique()
-    chosen = everybody[:: -(-len(everybody) // MOST_PATHS) or 1]
+    everyone = steps["participant"].astype(str).unique()
+    chosen = everyone[:: -(-len(everyone) // MOST_PATHS) or 1]
     driven = steps[steps["participant"].isin(chosen)]
-    # A lap each: joined, a person's laps would be linked by a line from finish to start.
+    # One path per lap: joined, a line from finish to start would link a person's laps.
     laps = driven.groupby(["participant", "lap"], observed=True)
     lines = [lap[["x_m", "y_m"]].to_numpy()[::3] for _, lap in laps]
     alpha = max(0.12, min(0.6, 8 / max(len(lines), 1)))

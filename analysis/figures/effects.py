@@ -8,12 +8,15 @@ from matplotlib.figure import Figure
 
 from analysis.comparisons import PairedComparison
 from analysis.figures.style import BLACK, GREY, new_figure, say_nothing_to_show, tidy
+from analysis.figures.text import wrapped
 
 
 def effect_figure(comparisons: Sequence[PairedComparison]) -> Figure:
     """Draw changes of lap time in percent with 95% intervals, confirmatory ones filled."""
     shown = [c for c in comparisons if c.lap_time is not None and c.lead.computed]
-    figure = new_figure(1.1 + 0.45 * max(len(shown), 1))
+    labels = [_label(c) for c in reversed(shown)]
+    lines = sum(max(label.count("\n") + 1, 2) for label in labels)
+    figure = new_figure(1.1 + 0.225 * max(lines, 2))
     if not shown:
         return say_nothing_to_show(figure, "No comparison of lap times can be computed.")
     axes = figure.subplots()
@@ -32,7 +35,8 @@ def effect_figure(comparisons: Sequence[PairedComparison]) -> Figure:
             textcoords="offset points", fontsize=9,
         )  # fmt: skip
     axes.axvline(0, color=GREY, linewidth=1)
-    axes.set_yticks(range(len(shown)), [_label(c) for c in reversed(shown)])
+    axes.margins(x=0.12)  # room for the numbers above the outermost ones
+    axes.set_yticks(range(len(shown)), labels)
     axes.set_ylim(-0.5, len(shown) - 0.3)
     axes.set_xlabel("change of lap time / % (negative: faster)")
     tidy(axes, grid="x")
@@ -40,4 +44,4 @@ def effect_figure(comparisons: Sequence[PairedComparison]) -> Figure:
 
 
 def _label(c: PairedComparison) -> str:
-    return f"{c.condition}\nagainst {c.reference}"
+    return f"{wrapped(c.condition, 24, lines=4)}\n{wrapped(f'against {c.reference}', 24, lines=4)}"

@@ -5,19 +5,24 @@ import io
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
+from analysis.figures.text import literal_text, make_literal
+
 DPI = 150
 
 
 def settle(figure: Figure) -> None:
-    """Lay a figure out for good; drawing it does not move anything afterwards."""
-    figure.draw_without_rendering()
+    """Lay a figure out for good, its text as written; drawing it does not move anything then."""
+    make_literal(figure)
+    with literal_text():
+        figure.draw_without_rendering()
     figure.set_layout_engine("none")
 
 
 def svg(figure: Figure) -> bytes:
     """Return a settled figure as SVG, without a date and with reproducible ids."""
     stream = io.BytesIO()
-    with mpl.rc_context({"svg.hashsalt": "lad-study", "svg.fonttype": "path"}):
+    reproducible = mpl.rc_context({"svg.hashsalt": "lad-study", "svg.fonttype": "path"})
+    with reproducible, literal_text():
         figure.savefig(stream, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
     return stream.getvalue()
 
@@ -25,5 +30,6 @@ def svg(figure: Figure) -> bytes:
 def png(figure: Figure) -> bytes:
     """Return a settled figure as PNG."""
     stream = io.BytesIO()
-    figure.savefig(stream, format="png", dpi=DPI, metadata={"Software": None})
+    with literal_text():
+        figure.savefig(stream, format="png", dpi=DPI, metadata={"Software": None})
     return stream.getvalue()

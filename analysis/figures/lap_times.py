@@ -7,7 +7,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from analysis.figures.style import BLACK, GREY, VERMILLION, colours, new_figure, tidy
+from analysis.figures.style import BLACK, GREY, VERMILLION, WIDTH, colours, new_figure, tidy
+from analysis.figures.text import label_lines
 from analysis.roles import Part
 from analysis.stats.describe import describe
 
@@ -26,13 +27,16 @@ def lap_time_figure(
     paper
         The paper's means by condition, s; may be empty.
     """
-    figure = new_figure(4.0)
+    # Conditions side by side need room for their means and their names.
+    width = max(WIDTH, 0.9 * len(parts) + 0.8)
+    labels = label_lines([part.condition for part in parts], width - 0.8)
+    figure = new_figure(3.85 + 0.15 * max(label.count("\n") + 1 for label in labels), width)
     axes = figure.subplots()
     _lines(axes, laps, parts)
     _means(axes, laps, parts)
     _unfinished(axes, laps, parts)
     _paper(axes, parts, paper)
-    axes.set_xticks(range(len(parts)), [part.condition for part in parts])
+    axes.set_xticks(range(len(parts)), labels)
     axes.set_xlim(-0.5, len(parts) - 0.5)
     axes.set_ylim(bottom=0)
     axes.set_ylabel("lap time / s")

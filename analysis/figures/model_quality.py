@@ -1,4 +1,4 @@
-"""Whether the model knew when to help: AUC per lap, and whether p(h) means what it says."""
+"""Whether the model knew when to help: AUC per lap, and the calibration of p(h)."""
 
 from collections.abc import Sequence
 
@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from analysis.figures.style import BLACK, GREY, colours, new_figure, say_nothing_to_show, tidy
+from analysis.figures.text import label_lines, wrapped
 from analysis.roles import Part
 
 
@@ -47,7 +48,7 @@ def _strips(axes: Axes, known: pd.DataFrame, parts: Sequence[Part], shades: dict
         axes.annotate(f"{np.median(auc):.3f}", (at + 0.3, float(np.median(auc))), fontsize=9,
                       va="center")  # fmt: skip
     axes.axhline(0.5, color=GREY, linewidth=0.8, linestyle=":")
-    axes.set_xticks(range(len(parts)), [part.condition.replace("-", "-\n") for part in parts])
+    axes.set_xticks(range(len(parts)), label_lines([part.condition for part in parts], 2.2))
     axes.set_xlim(-0.6, len(parts) - 0.2)
     lowest = float(known["when_auc"].min())
     axes.set_ylim(min(0.45, lowest - 0.05), 1.02)
@@ -63,7 +64,8 @@ def _curves(
         bins = reliability[reliability["condition"] == part.condition]
         axes.plot(
             bins["predicted"], bins["observed"], marker="o" if part.role == "model" else "s",
-            color=shades[part.condition], linewidth=1.4, markersize=5, label=part.condition,
+            color=shades[part.condition], linewidth=1.4, markersize=5,
+            label=wrapped(part.condition, 24, lines=3),
         )  # fmt: skip
     axes.set_xlim(-0.02, 1.02)
     axes.set_ylim(-0.02, 1.02)

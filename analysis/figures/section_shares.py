@@ -7,6 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from analysis.figures.style import BLACK, colours, new_figure, say_nothing_to_show, tidy
+from analysis.figures.text import wrapped
 from analysis.roles import Part
 
 KINDS = {"sharp_right": "sharp right", "soft_right": "soft right", "left": "left",
@@ -14,7 +15,7 @@ KINDS = {"sharp_right": "sharp right", "soft_right": "soft right", "left": "left
 
 
 def section_figure(table: pd.DataFrame, parts: Sequence[Part]) -> Figure:
-    """Draw bars of the assisted share per section, the shadow demonstrator's wish as a line.
+    """Draw bars of the assisted share per section, the shadow demonstrator's share as a line.
 
     Parameters
     ----------
@@ -36,14 +37,21 @@ def section_figure(table: pd.DataFrame, parts: Sequence[Part]) -> Figure:
         here = table[table["condition"] == part.condition].set_index("section").loc[sections]
         left = at + (i - (len(shown) - 1) / 2) * width
         axes.bar(left, here["assisted_percent"], width * 0.92, color=shades[part.condition],
-                 label=part.condition, hatch="//" if part.role == "model" else None,
+                 label=wrapped(part.condition, 34, lines=3),
+                 hatch="//" if part.role == "model" else None,
                  edgecolor="white", linewidth=0)  # fmt: skip
         axes.hlines(here["would_percent"], left - width / 2, left + width / 2, color=BLACK,
                     linewidth=1.6, label="demonstrator would help" if i == 0 else "_")  # fmt: skip
-    axes.set_xticks(at, [f"{s}\n({KINDS.get(kinds[s], kinds[s])})" for s in sections],
-                    rotation=40, ha="right", rotation_mode="anchor")  # fmt: skip
+    labels = [f"{wrapped(s, 22, lines=4)}\n({KINDS.get(kinds[s], kinds[s])})" for s in sections]
+    axes.set_xticks(at, labels, rotation=40, ha="right", rotation_mode="anchor")  # fmt: skip
     axes.set_ylim(0, 105)
     axes.set_ylabel("assisted steps / %")
     tidy(axes, grid="y")
-    figure.legend(loc="outside upper center", ncols=3, frameon=False, fontsize=9)
+    figure.legend(
+        loc="outside upper center", ncols=3 if _short(shown) else 1, frameon=False, fontsize=9
+    )
     return figure
+
+
+def _short(parts: Sequence[Part]) -> bool:
+    return all(len(part.condition) <= 20 for part in parts)

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from analysis.roles import Part, Role
 
-# Okabe & Ito (2008), Color Universal Design: told apart with every common colour blindness.
+# Okabe & Ito (2008), Color Universal Design: distinct with every common colour blindness.
 BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
 YELLOW, BLUE, VERMILLION, PURPLE = "#F0E442", "#0072B2", "#D55E00", "#CC79A7"
 GREY, LIGHT = "#6b6b6b", "#d9d9d9"
@@ -25,7 +25,7 @@ WIDTH = 5.6
 
 
 def colours(parts: Sequence[Part]) -> dict[str, str]:
-    """Return each condition's colour: its part's, and further ones where parts repeat."""
+    """Return each condition's colour: its role's, and further ones where roles repeat."""
     taken: dict[str, str] = {}
     spare = iter(_FURTHER * len(parts))
     for part in parts:
@@ -35,12 +35,12 @@ def colours(parts: Sequence[Part]) -> dict[str, str]:
 
 
 def new_figure(height: float, width: float = WIDTH) -> Figure:
-    """Return an empty figure whose parts make room for each other; sizes in inches."""
+    """Return an empty figure with automatic spacing; sizes in inches."""
     return Figure(figsize=(width, height), layout="constrained")
 
 
 def tidy(axes: Axes, *, grid: str | None = None) -> None:
-    """Take away what does not carry data; keep a faint grid along one axis if asked."""
+    """Remove what carries no data; keep a faint grid along one axis where one is asked for."""
     axes.spines[["top", "right"]].set_visible(False)
     axes.tick_params(labelsize=9)
     if grid == "x":
@@ -51,6 +51,6 @@ def tidy(axes: Axes, *, grid: str | None = None) -> None:
 
 
 def say_nothing_to_show(figure: Figure, why: str) -> Figure:
-    """Write the reason where the data would be."""
+    """Write the reason in place of the data."""
     figure.text(0.5, 0.5, why, ha="center", va="center", fontsize=10, color=GREY, wrap=True)
     return figure

@@ -1,4 +1,4 @@
-"""Whether user and assistant wanted the same."""
+"""Whether user and assistant wanted the same movement."""
 
 import numpy as np
 
@@ -21,9 +21,9 @@ def agreement(steps: Steps) -> float:
 
 
 def opposition(steps: Steps) -> float:
-    """Return the share of assisted steps in which user and assistant pulled apart, 0 to 1.
+    """Return the share of assisted steps in which user and assistant disagreed, 0 to 1.
 
-    Pulled apart: the angle between the two commands is above 90 degrees.
+    They disagree when the angle between the two commands is above 90 degrees.
     """
     cosines = _cosines(steps)
     return float((cosines < 0).mean()) if len(cosines) else float("nan")
@@ -40,6 +40,6 @@ def _cosines(steps: Steps) -> Numbers:
 
 
 def _assistant(steps: Steps) -> Numbers:
-    """Whose command helped: the demonstrator's or the model's."""
+    """Return whether the demonstrator's or the model's command helped."""
     by_model = (steps["control"] == "model").to_numpy()[:, None]
     return np.where(by_model, command(steps, "mean"), command(steps, "a"))

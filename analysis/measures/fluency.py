@@ -1,4 +1,4 @@
-"""Fluency of working together, after Hoffman (2019), IEEE Trans. Human-Machine Systems 49(3).
+"""Fluency of collaboration, after Hoffman (2019), IEEE Trans. Human-Machine Systems 49(3).
 
 The human acts while the stick is deflected, the robot acts while an assistant's command counts.
 """
@@ -42,7 +42,7 @@ def functional_delay(steps: Steps) -> float:
     -------
     float
         Below 0 when they act at once; NaN without a hand-over, or where time does not increase
-        from step to step: then nobody knows who acted first.
+        from step to step: then it is unknown who acted first.
     """
     human, robot = _human(steps), helped(steps)
     if human is None or robot is None or np.isnan(period(steps)):

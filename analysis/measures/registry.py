@@ -32,7 +32,7 @@ class Measure:
     name
         Column name.
     title, unit
-        For people; "" for a number without a unit.
+        For readers; "" for a number without a unit.
     meaning
         One sentence.
     of

@@ -1,4 +1,4 @@
-"""Smoothness of a command stream: spectral arc length, and log dimensionless jerk.
+"""Smoothness of a command: spectral arc length, and log dimensionless jerk.
 
 Both are made for movements; a whole lap is one here, so compare laps of one course only.
 """
@@ -8,7 +8,7 @@ import numpy as np
 from analysis.measures.streams import Numbers, Steps, command, period
 
 CUTOFF = 10.0
-"""Highest frequency looked at, Hz (below the Nyquist frequency of the record anyway)."""
+"""Highest frequency used, Hz (below the Nyquist frequency of the record anyway)."""
 
 AMPLITUDE = 0.05
 """Share of the spectrum's maximum below which the tail is cut off."""

@@ -1,4 +1,4 @@
-"""A lap's steps as measures see them: streams of numbers, missing where nothing was recorded."""
+"""A lap's steps as measures use them: streams of numbers, missing where nothing was recorded."""
 
 from collections.abc import Iterator
 
@@ -36,14 +36,14 @@ def period(steps: Steps) -> float:
     -------
     float
         NaN for fewer than two steps, and where time does not increase from step to step: whole
-        seconds at 10 Hz, or steps out of order, do not tell how long anything took.
+        seconds at 10 Hz, or steps out of order, do not show how long anything took.
     """
     passed = np.diff(stream(steps, "t_s"))
     return float(np.median(passed)) if len(passed) and (passed > 0).all() else float("nan")
 
 
 def gaps(steps: Steps) -> tuple[str, ...]:
-    """Name what cannot be used of a lap's steps although it was recorded, and what becomes of it.
+    """Name what cannot be used of a lap's steps although it was recorded, and the consequence.
 
     Examples
     --------

@@ -7,7 +7,7 @@ from analysis.measures.episodes import Episode, episodes
 from analysis.measures.streams import Steps, helped, period, would_help
 
 EARLIEST = 3.0
-"""Help that ended longer than this before the demonstrator's onset belongs to something else, s."""
+"""Help that ended earlier than this before the demonstrator's onset has another cause, s."""
 
 
 def onset_lead(steps: Steps) -> float:
@@ -31,7 +31,7 @@ def missed_onsets(steps: Steps) -> float:
     Returns
     -------
     float
-        NaN when the demonstrator would never have helped, or nobody knows when what was.
+        NaN when the demonstrator would never have helped, or the times are unknown.
     """
     leads = list(_leads(steps))
     return sum(lead is None for lead in leads) / len(leads) if leads else float("nan")

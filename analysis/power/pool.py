@@ -7,10 +7,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from analysis.estimands import timed_laps
 from analysis.frames import StudyFrames
 from analysis.outcomes import outcome_of
 from analysis.place import with_place
-from analysis.unfinished import timed_laps
 from protocols.declared import Comparison
 from protocols.files.errors import InputError
 from protocols.order import in_words, laps_of

@@ -1,4 +1,4 @@
-"""What a page is made of. Everything in it is ready to be shown; nothing is computed later."""
+"""The parts of a page. Everything in them is ready to be shown; nothing is computed later."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -132,7 +132,7 @@ class Picture:
     caption
         What it shows, and the n.
     alternative
-        What somebody who cannot see it should know.
+        The same in words, for a reader who cannot see the figure.
     figure
         The figure.
     """

@@ -3,7 +3,7 @@
 import math
 
 NOTHING = "–"
-"""Stands where there is no number; a note says why."""
+"""Printed in place of a number; a note gives the reason."""
 
 
 def number(value: float, digits: int = 1) -> str:

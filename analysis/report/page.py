@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from analysis.flow import Flow
 from analysis.report.blocks import Page, Section
 from analysis.report.sections.against_paper import paper_section
 from analysis.report.sections.answer import answer_section
@@ -45,6 +46,20 @@ def build_page(results: StudyResults) -> Page:
     return Page(
         title=protocol.title,
         subtitle=f"Protocol {protocol.name}, course {study.course.name}{seed}; "
-        f"{results.flow.analysed} of {results.flow.planned} participants analysed",
-        sections=tuple(s for s in (section(results) for section in SECTIONS) if s is not None),
+        f"{results.flow.analysed} of {_all(results.flow)} participants analysed",
+        sections=tuple(
+            found
+            for section in SECTIONS
+            if _belongs(section, results)
+            if (found := section(results)) is not None
+        ),
     )
+
+
+def _all(flow: Flow) -> str:
+    return f"{flow.recorded} recorded" if flow.planned is None else str(flow.planned)
+
+
+def _belongs(section: Callable[[StudyResults], Section | None], results: StudyResults) -> bool:
+    """Tell whether a section has a place in this study's report: the paper's figures may not."""
+    return section is not paper_section or results.frames.study.protocol.replicates is not None

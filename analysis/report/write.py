@@ -9,6 +9,7 @@ from analysis.report.page import build_page
 from analysis.report.render import render
 from analysis.results import analyse
 from analysis.statistics import statistics_json
+from analysis.tables.csv_file import csv_file
 from protocols.files.errors import InputError
 from protocols.record.atomic import partial_beside
 from protocols.record.reader import open_study
@@ -20,7 +21,7 @@ def write_report(study_dir: Path, progress: Callable[[str], None] | None = None)
     """Analyse a study directory and write its report.
 
     ``report/`` gets ``index.html`` (one self-contained page), ``figures/`` (SVG and PNG),
-    ``tables/`` (CSV) and ``statistics.json``. It is built beside its place and renamed; an older
+    ``tables/`` (CSV) and ``statistics.json``. It is built under another name and renamed; an older
     report is replaced as a whole.
 
     Parameters
@@ -28,7 +29,7 @@ def write_report(study_dir: Path, progress: Callable[[str], None] | None = None)
     study_dir
         The study directory.
     progress
-        Told in a few words what is being done.
+        Called with a few words about what is being done.
 
     Returns
     -------
@@ -38,7 +39,7 @@ def write_report(study_dir: Path, progress: Callable[[str], None] | None = None)
     Raises
     ------
     InputError
-        When the directory is no study, holds no session, cannot be used or cannot be written.
+        When the directory is not a study, holds no session, cannot be used or cannot be written.
     """
     tell = progress or (lambda _: None)
     study_dir = Path(study_dir)
@@ -49,14 +50,14 @@ def write_report(study_dir: Path, progress: Callable[[str], None] | None = None)
         settle(picture.figure)
     svgs = {picture.name: svg(picture.figure) for picture in page.pictures}
     pngs = {picture.name: png(picture.figure) for picture in page.pictures}
-    tables = {t.name: t.frame.to_csv(index=False, lineterminator="\n") for t in page.tables}
+    tables = {t.name: csv_file(t.frame) for t in page.tables}
     tell("Writing the report")
     contents: dict[str, bytes] = {
         "index.html": render(page, svgs).encode(),
         "statistics.json": statistics_json(results).encode(),
         **{f"figures/{name}.svg": content for name, content in svgs.items()},
         **{f"figures/{name}.png": content for name, content in pngs.items()},
-        **{f"tables/{name}.csv": text.encode() for name, text in tables.items()},
+        **{f"tables/{name}.csv": content for name, content in tables.items()},
     }
     try:
         replace_folder(study_dir / REPORT, contents)

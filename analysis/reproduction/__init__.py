@@ -1,1 +1,1 @@
-"""Section IV of Soh & Demiris (2013), reproduced: each figure and number of theirs beside ours."""
+"""Section IV of Soh & Demiris (2013), reproduced: each of its figures and numbers beside ours."""

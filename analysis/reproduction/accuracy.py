@@ -13,7 +13,7 @@ from analysis.reproduction.teaching import PredictedLap, Run
 from lad.calibration import brier_score
 
 UNDECIDED = 0.001
-"""p(h) nearer to 0.5 than this says nothing."""
+"""p(h) nearer to 0.5 than this is undecided."""
 
 
 @dataclass(frozen=True, slots=True)

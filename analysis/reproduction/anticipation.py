@@ -1,4 +1,4 @@
-"""Whether the model sees help coming (section IV.D): when p(h) rises, against the takeover."""
+"""Whether the model anticipates help (section IV.D): when p(h) rises, against the takeover."""
 
 from collections.abc import Iterable
 
@@ -9,7 +9,7 @@ from analysis.measures.episodes import Episode, episodes
 from analysis.reproduction.teaching import PredictedLap
 
 RISEN = 0.25
-"""p(h) that counts as seeing help coming; half the paper's W_h."""
+"""p(h) that counts as anticipation; half the paper's W_h."""
 
 
 def leads(laps: Iterable[PredictedLap]) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""Recorded demonstrations, as the model meets them."""
+"""Recorded demonstrations, as the model gets them."""
 
 from dataclasses import dataclass
 

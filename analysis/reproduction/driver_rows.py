@@ -21,7 +21,7 @@ PARTS = {
     "model after 5": "model-5",
     "model after 10": "model-10",
 }
-"""Conditions, and what ``analysis.paper`` calls them."""
+"""Conditions, and their names in ``analysis.paper``."""
 
 CALIBRATED = ("baseline", "limited", "demonstrator")
 
@@ -29,7 +29,7 @@ SPEEDUP_AFTER_3 = 146.0
 """In %: section VI says "137%-146% (after only one to three demonstrations)"."""
 
 BEHIND_AFTER_1 = 2.6
-"""In s: as section IV.E says it; its own means say 2.1."""
+"""In s: the text of section IV.E; its own means give 2.1."""
 
 KS_P = 0.4370
 """Section IV.E."""

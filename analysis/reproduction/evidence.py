@@ -1,4 +1,4 @@
-"""What the reproduction stands on: three recorded studies, and models taught again from one."""
+"""The data of the reproduction: three recorded studies, and models taught again from one."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -52,7 +52,7 @@ def gather(folder: Path, jobs: int = 1, tell: Callable[[int, int], None] | None 
     jobs
         Processes that teach, 1 or more.
     tell
-        Told how many models have been taught, and of how many.
+        Called with how many models have been taught, and of how many.
 
     Raises
     ------

@@ -28,7 +28,7 @@ def full_sections(
     jobs
         Processes that teach models, 1 or more.
     say
-        Told in a few words what is being done.
+        Called with a few words about what is being done.
 
     Raises
     ------

@@ -31,7 +31,7 @@ def build_page(evidence: Evidence, rows: Sequence[Row], further: Sequence[Sectio
     Parameters
     ----------
     evidence
-        What the rows and figures stand on.
+        The data of the rows and figures.
     rows
         Every quantity.
     further
@@ -74,7 +74,7 @@ def _fact(rows: Sequence[Row], kind: Kind) -> Fact:
     holding = sum(row.verdict == "holds" for row in judged)
     detail = {
         "calibrated": "Fitted to the paper's figures with other random numbers.",
-        "predicted": "Not fitted to anything: they could have come out differently.",
+        "predicted": "Not fitted to anything: they could have been different.",
         "descriptive": "",
     }[kind]
     return Fact(f"{kind.capitalize()} figures within their tolerance",

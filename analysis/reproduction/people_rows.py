@@ -21,7 +21,7 @@ PARTS = {
     "human-assisted": "demonstrator",
     "model-assisted": "model-1",
 }
-"""Conditions, and what ``analysis.paper`` calls them."""
+"""Conditions, and their names in ``analysis.paper``."""
 
 CALIBRATED = ("baseline", "limited")
 """What the population of synthetic participants is fitted to; a cohort of twelve may differ."""

@@ -6,7 +6,7 @@ from analysis.report.numbers import NOTHING, interval, number
 from analysis.reproduction.row import Row, Rule, Verdict
 
 VERDICT_TEXT: Mapping[Verdict, str] = {"holds": "holds", "differs": "differs", "none": ""}
-"""A verdict as a word; nothing for none."""
+"""A verdict as a word; empty without a verdict."""
 
 DIGITS: Mapping[str, int] = {"s": 2, "%": 0, "": 4, "m/s": 3, "rad/s": 3}
 """Printed decimals by unit; 2 for others."""

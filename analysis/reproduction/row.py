@@ -14,7 +14,7 @@ FIELDS = (
 """Of a row of the JSON, before its verdict."""
 
 SLACK = 1e-9
-"""What a comparison forgives: 0.9905 - 0.0055 is not quite 0.985 in binary."""
+"""Slack of a comparison: 0.9905 - 0.0055 is not exactly 0.985 in binary."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,12 +34,12 @@ class Row:
     ours
         What we found; NaN where it could not be computed.
     n
-        How many independent laps, participants or runs ``ours`` stands on.
+        How many independent laps, participants or runs ``ours`` is computed from.
     low, high
         Its interval; NaN where there is none. 95% for means and ratios, 90% for an equivalence
         test, quartiles for medians over permutations.
     kind
-        Calibrated: fitted to the paper's figure. Predicted: it could have come out differently.
+        Calibrated: fitted to the paper's figure. Predicted: it could have been different.
         Descriptive: reported only.
     tolerance
         Declared beforehand (see ``analysis.reproduction.tolerances``); None for none.
@@ -61,7 +61,7 @@ class Row:
 
     @property
     def verdict(self) -> Verdict:
-        """What ``verdict_of`` says of these numbers."""
+        """The verdict of these numbers; see ``verdict_of``."""
         return verdict_of(self.as_json())
 
     def as_json(self) -> dict[str, Any]:
@@ -80,9 +80,9 @@ def verdict_of(row: dict[str, Any]) -> Verdict:
 
     Without a tolerance there is none. Otherwise the quantity holds when, by its rule,
 
-    - ``near paper``: ours lies within the tolerance of the paper's figure;
+    - ``near paper``: ours is within the tolerance of the paper's figure;
     - ``at least``: ours is no lower than the paper's figure less the tolerance;
-    - ``near zero``: ours lies within the tolerance of zero;
+    - ``near zero``: ours is within the tolerance of zero;
     - ``interval near zero``: so does the whole interval, ends not included.
 
     It differs when a number that the rule needs is missing.

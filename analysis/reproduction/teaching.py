@@ -89,7 +89,7 @@ def teach_in_orders(
     jobs
         Number of processes, 1 or more.
     tell
-        Told how many models have been taught, and of how many.
+        Called with how many models have been taught, and of how many.
 
     Raises
     ------
@@ -99,7 +99,7 @@ def teach_in_orders(
     task = partial(teach, make_model, laps)
     if jobs == 1:
         return _counted(map(task, orders), len(orders), tell)
-    # Spawned: forking a process with threads of its own is not safe.
+    # Spawned, because forking a process that has threads is not safe.
     context = get_context("spawn")
     try:
         with ProcessPoolExecutor(min(jobs, len(orders)), context, _leave_interrupts) as pool:
@@ -131,7 +131,7 @@ def _counted(
 
 
 def _leave_interrupts() -> None:
-    """Ctrl-C is for the process that started this one: it ends the pool."""
+    """Ignore Ctrl-C here: the process that started this one handles it and ends the pool."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
@@ -139,11 +139,11 @@ def _lap(
     model: LearningAssistant, lap: Demonstration, index: int, *, learning: bool
 ) -> PredictedLap:
     model.start_lap()
-    said = np.full((len(lap.t), 4), np.nan)
+    answers = np.full((len(lap.t), 4), np.nan)
     for step, x in enumerate(lap.x):
         answer = model.assist(x)
         mean = answer.mean or (np.nan, np.nan)
-        said[step] = (_number(answer.p_help), *mean, _number(answer.variance))
+        answers[step] = (_number(answer.p_help), *mean, _number(answer.variance))
         if learning:
             helped = bool(lap.helped[step])
             model.learn(helped, Command(*lap.action[step].tolist()) if helped else None)
@@ -152,9 +152,9 @@ def _lap(
         t=lap.t,
         helped=lap.helped,
         action=lap.action,
-        p_help=said[:, 0],
-        mean=said[:, 1:3],
-        variance=said[:, 3],
+        p_help=answers[:, 0],
+        mean=answers[:, 1:3],
+        variance=answers[:, 3],
     )
 
 

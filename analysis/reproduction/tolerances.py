@@ -1,4 +1,4 @@
-"""What counts as reproduced, declared before anything was run. Nothing else gets a verdict."""
+"""What counts as reproduced, declared before anything was run. Other quantities have no verdict."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

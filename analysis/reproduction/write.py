@@ -15,6 +15,7 @@ from analysis.reproduction.markdown import markdown
 from analysis.reproduction.page import build_page
 from analysis.reproduction.people_rows import people_rows
 from analysis.reproduction.row import Row
+from analysis.tables.csv_file import csv_file
 from protocols.files.errors import InputError
 from protocols.record.atomic import partial_beside
 
@@ -43,9 +44,9 @@ def write_reproduction(
     jobs
         Processes that teach models, 1 or more.
     tell
-        Told in a few words what is being done.
+        Called with a few words about what is being done.
     further
-        Gives the sections and rows that follow the paper's own experiments.
+        Returns the sections and rows that follow the paper's own experiments.
 
     Returns
     -------
@@ -96,17 +97,14 @@ def contents_of(page: Page, rows: Sequence[Row]) -> dict[str, bytes]:
         f"{PAGE}.json": f"{listed}\n".encode(),
         **{f"figures/{name}.svg": content for name, content in svgs.items()},
         **{f"figures/{name}.png": content for name, content in pngs.items()},
-        **{
-            f"tables/{t.name}.csv": t.frame.to_csv(index=False, lineterminator="\n").encode()
-            for t in page.tables
-        },
+        **{f"tables/{t.name}.csv": csv_file(t.frame) for t in page.tables},
     }
 
 
 def replace_all(folder: Path, contents: dict[str, bytes]) -> None:
     """Put files, and the folders they are in, in the place of those with their names.
 
-    Everything is written beside its place first: when that fails, nothing has changed.
+    Everything is written under another name first: when that fails, nothing has changed.
 
     Raises
     ------
@@ -129,7 +127,7 @@ def replace_all(folder: Path, contents: dict[str, bytes]) -> None:
 
 
 def _swap(new: Path, place: Path, aside: Path) -> None:
-    """Move a file or folder to its place; a folder that is there goes aside first."""
+    """Move a file or folder to its place; an older folder there is moved away first."""
     if place.is_dir():
         place.rename(aside)
     try:

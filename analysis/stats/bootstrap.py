@@ -10,7 +10,7 @@ from scipy import stats
 
 RESAMPLES = 1999
 FEWEST = 6
-"""Below this many participants a bootstrap interval promises more than it can keep."""
+"""With fewer participants a bootstrap interval is too narrow for its level."""
 
 Statistic = Callable[..., NDArray[np.float64]]
 
@@ -65,7 +65,7 @@ def bca_interval(
     if len(samples[0]) < FEWEST or all(np.ptp(sample) == 0 for sample in samples):
         return math.nan, math.nan
     with warnings.catch_warnings(), np.errstate(invalid="ignore", divide="ignore"):
-        # Said to the caller by NaN: leaving one participant out changes nothing.
+        # The caller gets NaN instead: leaving one participant out changes nothing.
         warnings.simplefilter("ignore", stats.DegenerateDataWarning)
         interval = stats.bootstrap(
             samples,

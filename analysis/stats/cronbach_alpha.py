@@ -38,7 +38,7 @@ def cronbach_alpha(answers: ArrayLike, level: float = 0.95) -> TestResult:
         return TestResult.missing(_NAME, n, "needs at least 3 complete answer sheets")
     total = float(complete.sum(axis=1).var(ddof=1))
     if total == 0:
-        return TestResult.missing(_NAME, n, "everybody scores the same")
+        return TestResult.missing(_NAME, n, "all people have the same score")
     alpha = k / (k - 1) * (1 - float(complete.var(axis=0, ddof=1).sum()) / total)
     df = (n - 1, (n - 1) * (k - 1))
     tails = np.asarray(stats.f.ppf([(1 + level) / 2, (1 - level) / 2], *df))

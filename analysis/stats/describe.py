@@ -1,4 +1,4 @@
-"""What a table says of one sample."""
+"""The numbers of one sample in a table."""
 
 import math
 from dataclasses import dataclass

@@ -12,7 +12,7 @@ def holm(p_values: Sequence[float]) -> tuple[float, ...]:
     ----------
     p_values
         One per test of the family. A test that could not be computed (NaN) stays NaN, yet counts:
-        the family is what was declared, not what worked out.
+        the family is what was declared, not what could be computed.
 
     References
     ----------

@@ -30,7 +30,7 @@ def map_overlap(
     ----------
     first, second
         Shape (participants, cells): smoothed counts of either source's assisted steps. Row i of
-        both belongs to one participant; participants whom either source never helped are left out.
+        both belongs to one participant; participants without help from one of them are left out.
     rng
         For exchanges.
 
@@ -48,7 +48,7 @@ def map_overlap(
     f, g = first[both][:, cells], second[both][:, cells]
     n = int(both.sum())
     if n < 2:
-        return TestResult.missing(_NAME, n, "needs 2 participants whom both sources helped")
+        return TestResult.missing(_NAME, n, "needs 2 participants with help from both sources")
     observed = float(_overlaps(f.sum(axis=0)[None], g.sum(axis=0)[None])[0])
     exact = n <= EXACT_UP_TO
     swaps = _every_swap(n) if exact else rng.integers(2, size=(DRAWS, n)).astype(np.float64)

@@ -15,7 +15,7 @@ def own_contrasts(
     """Set every condition's log lap time against a reference's, within participants.
 
     The mixed model of ``analysis.stats.mixed_model`` takes the spread of all contrasts for one and
-    the same. Where two conditions are driven alike and a third differently by everybody, it is
+    the same. Where all people drive two conditions alike and a third differently, it is
     not, and the model's tests of the third reject too often. These do not: each contrast has its
     own standard deviation. With complete data both have the same estimate.
 

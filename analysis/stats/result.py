@@ -24,7 +24,7 @@ class TestResult:
     statistic, statistic_name
         Test statistic and its symbol.
     p
-        Two-sided p-value unless ``method`` says otherwise; NaN for an estimate without a test.
+        Two-sided p-value unless ``method`` names another one; NaN for an estimate without a test.
     n
         Number of independent units (pairs or participants) that were used.
     method
@@ -32,7 +32,7 @@ class TestResult:
     checks
         Assumptions that were checked, and what was found.
     notes
-        What a reader must know besides: ties, zeros, fallbacks.
+        What else a reader must know: ties, zeros, fallbacks.
     why_not
         Why it could not be computed; None when it was.
     """
@@ -67,5 +67,5 @@ class TestResult:
 
     @property
     def computed(self) -> bool:
-        """Whether there is a result at all."""
+        """Whether there is a result."""
         return self.why_not is None

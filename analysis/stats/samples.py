@@ -25,7 +25,7 @@ def settled(differences: Sample) -> NDArray[np.float64]:
     """Return the differences that are not missing, without the noise of computing them.
 
     0.3 - 0.2 and 0.2 - 0.1 are the same difference, and differ in the seventeenth digit. Ranks,
-    ties, zeros and "all are equal" must not hang on that: ten digits of the largest one are kept.
+    ties, zeros and "all are equal" must not depend on that: ten digits of the largest one are kept.
 
     Examples
     --------

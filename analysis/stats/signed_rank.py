@@ -1,4 +1,4 @@
-"""Wilcoxon's signed-rank test, exact whatever the ties and zeros."""
+"""Wilcoxon's signed-rank test, exact with ties and zeros too."""
 
 import math
 from typing import Literal
@@ -30,7 +30,7 @@ def signed_rank(differences: Sample, *, zeros: Zeros = "pratt", level: float = 0
     differences
         One per participant, in any unit; missing ones are left out.
     zeros
-        What is done about differences of zero.
+        How differences of zero are treated.
     level
         Confidence level of the interval.
 

@@ -1,4 +1,4 @@
-"""Our numbers beside the paper's."""
+"""The study's numbers beside the paper's."""
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
@@ -18,7 +18,7 @@ from analysis.stats.result import TestResult
 
 @dataclass(frozen=True, slots=True)
 class _Ours:
-    """A number of ours, with the paper's."""
+    """A number of the study, with the paper's."""
 
     part: Part
     quantity: str
@@ -67,7 +67,7 @@ def _row(ours: _Ours, paper: PaperFigure) -> dict[str, object]:
         "ours_low": ours.low,
         "ours_high": ours.high,
         "section": paper.section,
-        "remark": paper.doubt,
+        "remark": paper.remark,
     }
 
 

@@ -128,7 +128,7 @@ def _odds_ratio(result: TestResult | None) -> dict[str, float]:
 
 
 def _remarks(c: PairedComparison) -> list[str]:
-    """Return what is to be known of a row, once, and of which quantities it is said."""
+    """Return the notes of a row, each once with the quantities that it is about."""
     parts = [c.signed_rank, c.rank_biserial, c.dz, c.difference, c.equivalence, c.odds]
     results = [r for r in parts if r is not None]
     said = [(r.why_not, r.name) for r in results if r.why_not is not None]

@@ -11,7 +11,7 @@ from analysis.stats.describe import describe
 def measure_table(frames: StudyFrames, records: LapRecords) -> pd.DataFrame:
     """Return one row per measure and condition: n, missing, mean, sd, median, extremes.
 
-    Finished laps only: a lap that was cut short is no lap's worth of anything.
+    Finished laps only: the measures of a lap that was cut short are not those of a lap.
     """
     finished = records.measures[records.measures["completed"]]
     rows = []

@@ -1,4 +1,4 @@
-"""Whether the model's p(h) means what it says: predicted against observed."""
+"""Calibration of the model's p(h): predicted against observed."""
 
 import numpy as np
 import pandas as pd

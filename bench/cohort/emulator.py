@@ -1,7 +1,7 @@
 """What lap time a person with given traits would drive, learnt from some hundreds of pairs.
 
 Two Gaussian processes on the logarithm of lap time, one for the baseline and one for the limited
-lap. They make it cheap to ask what a whole population would do; what they say about it is checked
+lap. They make it cheap to ask what a whole population would do; their result is checked
 against laps that are driven.
 """
 

@@ -20,7 +20,7 @@ def drive(
     people: Numbered, keep: Path | None, *, time_limit: float | None = None, jobs: int = 1,
     seed: int = SEED, say: Callable[[str], None] = print,
 ) -> list[Pair]:  # fmt: skip
-    """Return everybody's laps; those driven before for the same people and course are read.
+    """Return the laps of all people; those driven before for the same people and course are read.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def drive(
     time_limit, jobs, seed
         As for ``drive_all``.
     say
-        Told from time to time how far it is.
+        Called from time to time with how far it is.
     """
     pairs: list[Pair] = []
     for i in range(0, len(people), PORTION):

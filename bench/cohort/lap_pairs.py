@@ -1,6 +1,6 @@
 """A person's baseline and limited lap, and nothing else: no helper, no model, no record.
 
-Whoever only watches touches nothing, so these are the laps of the study itself, at a third of
+An assistant that only watches changes nothing: these are the laps of the study, at a third of
 their price. The familiarisation lap before them may be left out, too: a person takes a first
 impression of how far the chair obeys from it, which moves lap times by about a tenth of a second.
 """
@@ -31,7 +31,7 @@ LIMITATIONS = {0: unlimited, 1: unlimited, 2: right_turn_limit(0.15)}
 """Familiarisation, baseline and limited lap, by their position in the session."""
 
 FOREVER = 3000.0
-"""A patience nobody loses, s."""
+"""A patience that does not end, s."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +115,7 @@ def person_traits(cohort: Cohort, seed: int, number: int) -> Traits:
 
 
 def patient(traits: Traits) -> Traits:
-    """Return the same person with a patience nobody loses."""
+    """Return the same person with a patience that does not end."""
     return replace(traits, patience_s=FOREVER)
 
 
@@ -127,7 +127,7 @@ def drive_all(
     jobs: int = 1,
     tell: Callable[[int], None] = lambda _: None,
 ) -> list[Pair]:
-    """Return everybody's pair of laps, in the order of ``people``.
+    """Return the pair of laps of each person, in the order of ``people``.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def drive_all(
     jobs
         Number of processes.
     tell
-        Told how many have been driven.
+        Called with how many have been driven.
     """
     pairs = []
     for pair in _driven(list(people), seed, time_limit, jobs):
@@ -154,9 +154,9 @@ def _driven(
         track = PairTrack(seed, time_limit)
         yield from (track.drive(*person) for person in people)
         return
-    crew = joblib.Parallel(n_jobs=jobs, return_as="generator", batch_size=1)
+    workers = joblib.Parallel(n_jobs=jobs, return_as="generator", batch_size=1)
     parts = [people[i : i + 25] for i in range(0, len(people), 25)]
-    for part in crew(joblib.delayed(_part)(part, seed, time_limit) for part in parts):
+    for part in workers(joblib.delayed(_part)(part, seed, time_limit) for part in parts):
         yield from part
 
 

@@ -43,7 +43,7 @@ def of_cell(cell: Cell, solved: Mapping[str, Marginal], people: int, first: int)
 
 
 def _drawn(population: Population, people: int, first: int) -> Numbered:
-    """Return people with a patience nobody loses: slow laps teach, too."""
+    """Return people with a patience that does not end: slow laps teach, too."""
     latent = np.random.default_rng([SEED, first]).normal(size=(people, len(TRAITS)))
     columns = draw_columns(population, latent)
     names = [field.name for field in fields(Traits)]

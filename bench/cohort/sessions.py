@@ -17,7 +17,7 @@ from protocols.load import resolve_study
 from protocols.record.reader import open_study
 
 SEED = 56_100
-"""Of everybody in the pools: the same people, cell by cell, as far as their traits are the same."""
+"""Of all people in the pools: the same people in each cell, as far as their traits are the same."""
 
 KEPT = (
     "participant", "lap", "condition", "practice", "completed", "end_reason", "withdrawal",
@@ -52,7 +52,7 @@ def laps_of(
     keep
         The cell's file (CSV).
     tell
-        Told how far it is.
+        Called with how far it is.
     """
     known = pd.read_csv(keep) if keep.exists() else pd.DataFrame(columns=["number"])
     missing = sorted(set(range(1, people + 1)) - set(known["number"]))
@@ -71,7 +71,7 @@ def laps_of_study(folder: Path) -> pd.DataFrame:
     Parameters
     ----------
     folder
-        A study directory of ``four-lap``, with its own traits for nobody.
+        A study directory of ``four-lap``, without traits of its own.
     """
     study = open_study(folder)
     assert study.protocol == resolve_study("four-lap").protocol.model_copy(

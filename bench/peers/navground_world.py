@@ -56,7 +56,7 @@ class Navground:
         return pose, self._sensed.get_buffer("range").data.astype(np.float64)
 
     def velocity(self) -> Command:
-        """Return how the chair moves: as it was told, at once."""
+        """Return how the chair moves: as commanded, at once."""
         return self._last
 
     def step(self, command: Command) -> None:

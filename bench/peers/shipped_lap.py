@@ -29,7 +29,7 @@ from protocols.record.parquet import parquet_bytes
 from protocols.wheelchair import LASER_AHEAD
 
 
-class Nobody:
+class NoAssistant:
     """An assistant who never helps: the part is about the loop, not about the model."""
 
     def start_lap(self) -> None:
@@ -43,7 +43,7 @@ class Nobody:
 def drive_shipped_lap(world: World, course: Course, time_limit_s: float) -> float:
     """Drive and record one lap, at most so long; return its length in simulated seconds."""
     driver = autonomous_driver(DriverSetup(course=course, rng=np.random.default_rng(0)))
-    cast = LapParts(driver=driver, demonstrator=Nobody(), model=Nobody())
+    parts = LapParts(driver=driver, demonstrator=NoAssistant(), model=NoAssistant())
     rules = Rules(
         limitation=right_turn_limit(0.15),
         assistant="none",
@@ -55,7 +55,7 @@ def drive_shipped_lap(world: World, course: Course, time_limit_s: float) -> floa
     world.reset(np.random.default_rng(0))
     driver.start_lap(0, np.random.default_rng(0))
     log = LapLog(Centreline(course), demonstrated=False)
-    ending = Lap(world, cast, rules, GateCounter(course)).drive(log, VirtualClock())
+    ending = Lap(world, parts, rules, GateCounter(course)).drive(log, VirtualClock())
     parquet_bytes(log.table())
     return ending.t
 
@@ -83,7 +83,7 @@ class PeerWorld:
         self._seen = self._look()
 
     def observe(self) -> Observation:
-        """Return what the instruments say now."""
+        """Return the instruments' readings."""
         return self._seen
 
     def safeguard(self, command: Command) -> Command:

@@ -1,4 +1,4 @@
-"""What every simulator offers the loop, and where the chair and its laser are: said once."""
+"""What every simulator offers the loop, and where the chair and its laser are, in one place."""
 
 import math
 from typing import Protocol

@@ -1,8 +1,7 @@
-"""Puts the commands together, and turns a person's mistake into one line and exit code 2."""
+"""Joins the commands, and turns faulty input into one line and exit code 2."""
 
 import sys
 from importlib.metadata import version
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -10,6 +9,7 @@ from typer.exceptions import TyperException
 
 from harness.cli import (
     check,
+    check_part,
     listing,
     power,
     preregister,
@@ -33,7 +33,7 @@ app = typer.Typer(
         "Run, simulate and analyse assistance studies on a simulated smart wheelchair.\n\n"
         "Start with `lad-study run`: the four-lap study with twelve synthetic participants, "
         "from the first lap to a report that opens in a browser.\n\n"
-        "Exit codes: 0 done; 1 something failed; 2 your input, with one line that says where, "
+        "Exit codes: 0 done; 1 something failed; 2 faulty input, with one line: where, "
         "what, and what is allowed."
     ),
 )
@@ -49,10 +49,13 @@ def _print_version(asked: bool) -> None:
 def _options(
     context: typer.Context,
     _version: Annotated[
-        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Say which.")
+        bool,
+        typer.Option(
+            "--version", callback=_print_version, is_eager=True, help="Print the version."
+        ),
     ] = False,
 ) -> None:
-    """Hold the options that come before a command; without one, say what commands there are."""
+    """Take the options that come before a command; without a command, list the commands."""
     if context.invoked_subcommand is None:
         typer.echo(context.get_help())
 
@@ -65,6 +68,7 @@ app.command("power")(power.power)
 app.command("preregister")(preregister.preregister)
 app.command("validate")(validate.validate)
 app.command("check")(check.check)
+app.command("check-part")(check_part.check_part)
 app.command("recover")(recover.recover)
 app.command("protocols")(listing.protocols)
 app.command("courses")(listing.courses)
@@ -72,12 +76,11 @@ app.command("show")(listing.show)
 
 
 _INTERRUPTED = 130
-"""What typer returns for a command that Ctrl-C has ended; no command of ours returns it."""
+"""What typer returns for a command that Ctrl-C has ended; no command here returns it."""
 
 
 def main() -> None:
     """Run the command line and exit with its code."""
-    sys.path.append(str(Path.cwd()))  # last, so that a folder there cannot hide what is installed
     try:
         code = app(prog_name="lad-study", standalone_mode=False)
     except InputError as fault:

@@ -13,16 +13,18 @@ def check(
 ) -> int:
     """Verify a study: sessions, checksums, schema, codebook, row counts.
 
-    Says in a line each what is wrong and what to run; exit code 1 when anything is.
+    Prints one line for each fault, with what to run; exit code 1 when there is a fault.
 
     Example: lad-study check studies/four-lap-seed0
     """
-    from protocols.record.check import check_study
+    from protocols.record.check import check_remarks, check_study
 
     with progress_line() as tell:
         faults = check_study(study, tell)
     for fault in faults:
         say(fault)
     if not faults:
+        for remark in check_remarks(study):
+            say(f"{study}: repaired on reading: {remark}")
         say(f"{study}: whole")
     return 1 if faults else 0

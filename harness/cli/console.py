@@ -1,4 +1,4 @@
-"""What the commands say, and how work in progress looks."""
+"""What the commands print, and how work in progress is shown."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

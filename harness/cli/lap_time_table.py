@@ -1,4 +1,4 @@
-"""The table a person wants to see when a study has been run."""
+"""The table of lap times that is printed after a study has run."""
 
 import math
 from pathlib import Path
@@ -11,14 +11,16 @@ from protocols.record.reader import open_study
 
 
 def print_lap_times(folder: Path) -> None:
-    """Print lap times by condition, speedups over the limited laps, and the paper's figures."""
+    """Print lap times by condition, speedups, and the published figures of a study replicated."""
     from analysis.summary import lap_summary
 
     table = Table(box=box.SIMPLE_HEAD, title="Lap time by condition", title_justify="left")
     table.add_column("condition")
-    for heading in ("n", "mean s", "sd", "median", "speedup", "paper s"):
+    study = open_study(folder)
+    paper = study.protocol.replicates is not None
+    for heading in ("n", "mean s", "sd", "median", "speedup", *(("paper s",) if paper else ())):
         table.add_column(heading, justify="right")
-    for row in lap_summary(open_study(folder)).to_dict("records"):
+    for row in lap_summary(study).to_dict("records"):
         unfinished = f" (+{row['unfinished']} unfinished)" if row["unfinished"] else ""
         table.add_row(
             row["condition"],
@@ -27,7 +29,7 @@ def print_lap_times(folder: Path) -> None:
             _number(row["sd_s"]),
             _number(row["median_s"]),
             _number(row["speedup_percent"], "%", 0),
-            _number(row["paper_mean_s"], places=2),
+            *((_number(row["paper_mean_s"], places=2),) if paper else ()),
         )
     OUT.print(table)
 

@@ -1,4 +1,4 @@
-"""`lad-study protocols`, `courses` and `show`: what is shipped, and what it says."""
+"""`lad-study protocols`, `courses` and `show`: the shipped files, and their contents."""
 
 from typing import Annotated
 

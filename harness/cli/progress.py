@@ -9,14 +9,14 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from harness.cli.console import ERR, complain
 
 LINES = 20
-"""How often progress is said over a whole run where there is no terminal to draw a bar on."""
+"""How often progress is printed over a whole run where there is no terminal for a bar."""
 
 
 @contextmanager
 def counted_sessions(label: str = "Sessions") -> Iterator[Callable[[int, int], None]]:
     """Show how many sessions have ended; yield the function to tell it and how many are planned.
 
-    Nothing is shown before it is first told something, so that an input fault stays one line.
+    Nothing is shown before the first call, so that an input fault stays one line.
     """
     columns = (TextColumn(label), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     pace_column = TextColumn("{task.fields[pace]}")

@@ -1,4 +1,4 @@
-"""`lad-study replay`: a recorded lap as a moving picture."""
+"""`lad-study replay`: a recorded lap as an animated picture."""
 
 from pathlib import Path
 from typing import Annotated
@@ -16,7 +16,7 @@ def replay(
 ) -> None:
     """Draw a lap as a GIF from the record: nothing is simulated again.
 
-    Plan view with walls, chair, laser segments and the trail coloured by who is in control; p(h)
+    Plan view with walls, chair, laser segments and the trail coloured by who has control; p(h)
     below it.
 
     Example: lad-study replay studies/four-lap-seed0 --participant P0001 --lap 3 --out lap.gif

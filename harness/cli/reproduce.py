@@ -1,4 +1,4 @@
-"""`lad-study reproduce`: the paper's experiments, and one page that holds them against it."""
+"""`lad-study reproduce`: the paper's experiments, and one page that compares both."""
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -33,11 +33,11 @@ def reproduce(
         typer.Option(metavar="FILE", help="With --full: a further course, a name or a file."),
     ] = None,
 ) -> int:
-    """Run the paper's experiments, and hold them against its numbers.
+    """Run the paper's experiments, and compare the results with its numbers.
 
     Writes reproduction.html (one page), .md and .json (one row per quantity, with a verdict where
-    a tolerance was declared). A run that was stopped goes on where it was when the same command is
-    given again.
+    a tolerance was declared). The same command resumes a run that was
+    stopped.
 
     Example: lad-study reproduce --seed 1 --out reproductions/one
     """

@@ -1,4 +1,4 @@
-"""The table a person wants to see when the paper has been reproduced."""
+"""The table that is printed after a reproduction of the paper."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def print_rows(rows: "Sequence[Row]") -> None:
-    """Print what the paper prints too, or what has a verdict: the paper's number, ours, verdict."""
+    """Print what the paper prints too, or what has a verdict: both numbers and the verdict."""
     from analysis.reproduction.printed import VERDICT_TEXT, number_of
 
     table = Table(box=box.SIMPLE_HEAD, title="The paper and ours", title_justify="left")

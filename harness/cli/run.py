@@ -41,12 +41,16 @@ def run(
     retry_failed: Annotated[
         bool, typer.Option("--retry-failed", help="Run sessions again that failed before.")
     ] = False,
+    trust: Annotated[
+        bool, typer.Option("--trust", help="Allow the code beside the protocol file, as it is now.")
+    ] = False,
     no_report: Annotated[bool, typer.Option("--no-report", help="Only the record.")] = False,
 ) -> int:
     """Run a study with synthetic participants, and report it.
 
     Without arguments: the four-lap study, twelve participants, seed 0. A run that was stopped
-    goes on where it was when the same command is given again.
+    goes on where it was when the same command is given again. A protocol's own parts are code:
+    they run with --trust only, and after that until their file changes.
 
     Example: lad-study run four-lap --participants 24 --seed 3 --out studies/pilot
     """
@@ -62,11 +66,14 @@ def run(
         course,
         registration=registration,
         retry_failed=retry_failed,
+        trust=trust,
     )
     if outcome.found:
         say(f"{outcome.found} of {outcome.planned} sessions were there already.")
     if not no_report and outcome.found + outcome.finished:
         _report(folder)
+    if outcome.found + outcome.finished:
+        _say_what_nobody_finished(folder)
     say(f"Study:  {folder}")
     if outcome.failed:
         complain(_failures(folder, outcome))
@@ -85,17 +92,20 @@ def _run(
     *,
     registration: Path | None,
     retry_failed: bool,
+    trust: bool,
 ) -> "tuple[Path, Outcome]":
     from harness.running.open_workers import warm_up_workers
 
     if scheduler is None:
         warm_up_workers()  # first: workers start while this process reads the protocol
     from harness.cli.progress import counted_sessions
+    from harness.cli.trust import trusted_study
     from harness.running.runner import run_study
     from harness.session.study_run import StudyRun
     from protocols.load import resolve_study
 
     study = resolve_study(protocol, course=course, participants=participants)
+    study = trusted_study(study, asked=trust)
     plan = None
     if registration is not None:
         from protocols.registration import copy_registration, read_registration, registered
@@ -126,6 +136,14 @@ def _failures(folder: Path, outcome: "Outcome") -> str:
         f"{failure_reason(folder, outcome.failed[0])}): see {folder / 'logs'}; "
         "--retry-failed runs them again (those whose process died, the same command too)."
     )
+
+
+def _say_what_nobody_finished(folder: Path) -> None:
+    from analysis.unfinished import nobody_finished
+    from protocols.record.reader import open_study
+
+    for unfinished in nobody_finished(open_study(folder)):
+        complain(unfinished.sentence)
 
 
 def _report(folder: Path) -> None:

@@ -1,10 +1,13 @@
 """`lad-study validate`: whether a file is right, before anything runs."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from harness.cli.console import say
+from harness.cli.console import progress_line, say
+
+if TYPE_CHECKING:
+    from protocols.resolved import ResolvedStudy
 
 
 def validate(
@@ -12,7 +15,7 @@ def validate(
         str, typer.Argument(metavar="FILE", help="A protocol, course or instrument file.")
     ],
 ) -> None:
-    """Check a protocol, course or questionnaire without running anything.
+    """Check a protocol, course or questionnaire without running a lap.
 
     A fault is one line with file, line, field and what is allowed, and exit code 2.
 
@@ -22,9 +25,14 @@ def validate(
     from protocols.balance import balance_in_words
     from protocols.course.schema import Course
     from protocols.load import check_file
+    from protocols.parts import installed_parts
     from protocols.resolved import ResolvedStudy
 
-    checked = check_file(file)
+    with progress_line() as tell:
+        tell(f"Checking {file}")
+        checked = check_file(file)
+        if isinstance(checked, ResolvedStudy):
+            _try_parts(checked)
     if isinstance(checked, ResolvedStudy):
         protocol = checked.protocol
         say(
@@ -35,6 +43,18 @@ def validate(
             say(f"Orders: {sentence}.")
         for warning in out_of_reach(protocol):
             say(f"Caution: {warning}")
+        for part in checked.beside:
+            say(f"{part.place}: '{part.use}' was not tried: validate does not run {part.module}")
+        for use, package in installed_parts(protocol, checked.beside).items():
+            say(f"{file}: '{use}' of {package} was not tried: validate runs only what ships")
     else:
         kind = "course" if isinstance(checked, Course) else "questionnaire"
         say(f"{file}: a {kind}: {checked.title}")
+
+
+def _try_parts(study: "ResolvedStudy") -> None:
+    """Make every part that ships once, with its options: as a run would before its first lap."""
+    from harness.session.parts import make_every_part
+    from harness.session.study_run import StudyRun, portable
+
+    make_every_part(portable(StudyRun(study, seed=0)), only_shipped=True)

@@ -1,1 +1,1 @@
-"""The studies that a reproduction of the paper stands on, planned and run."""
+"""The studies of a reproduction of the paper, listed and run."""

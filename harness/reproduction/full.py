@@ -20,7 +20,7 @@ from protocols.resolved import ResolvedStudy
 from protocols.variants import DEFAULT, VARIANTS, Variant
 
 ROBUSTNESS, GENERALISATION = "robustness", "generalisation"
-"""Folders of these studies, in the one of all studies: one by variant, one by course."""
+"""Folders of these studies within the studies' folder: one per variant, one per course."""
 
 TEACHING = ("demonstrator", "model after 1", "further demonstration", "further demonstration",
             "model after 3")  # fmt: skip
@@ -30,7 +30,7 @@ ELSEWHERE = ("baseline", "limited", "demonstrator", "model")
 """Laps on a course that the model was not taught on."""
 
 COURSES = ("lab-office-mirror", "ward-corridor")
-"""Shipped courses that nothing was calibrated or taught on."""
+"""Shipped courses that were used for no calibration and no teaching."""
 
 
 def full_experiments(out: Path, seed: int, course: Course | None = None) -> tuple[Experiment, ...]:
@@ -80,7 +80,7 @@ def run_full(
     progress
         Shows how far a study is.
     say
-        Told how long the rest will take, going by the first study.
+        Called with how long the rest will take, estimated from the first study.
 
     Raises
     ------
@@ -111,6 +111,7 @@ def _taught(laps: ResolvedStudy, variant: Variant) -> ResolvedStudy:
             "name": f"{ROBUSTNESS} {variant.name}",
             "title": f"Robustness: {variant.group}, {variant.label}",
             "description": "Lap times after one and three demonstrations.",
+            "replicates": None,
             "conditions": conditions,
             "laps": tuple(PlannedLap(condition=name) for name in TEACHING),
             "model": variant.model,
@@ -121,7 +122,7 @@ def _taught(laps: ResolvedStudy, variant: Variant) -> ResolvedStudy:
 
 
 def _elsewhere(laps: ResolvedStudy, course: Course, out: Path) -> ResolvedStudy:
-    """Return a study in which each replicate drives elsewhere with the model its laps taught."""
+    """Return a study in which each replicate drives another course with the model it taught."""
     path = f"{{folder}}/{ROBUSTNESS}/{DEFAULT.name}/{SESSIONS}/{{participant}}/{MODEL_FILE}"
     limited = laps.protocol.conditions["limited"]
     conditions = {
@@ -137,6 +138,7 @@ def _elsewhere(laps: ResolvedStudy, course: Course, out: Path) -> ResolvedStudy:
             "description": "Each replicate drives with the model that three demonstrations of the "
             "default model's robustness study have taught it.",
             "course": course.name,
+            "replicates": None,
             "conditions": conditions,
             "laps": tuple(PlannedLap(condition=name) for name in ELSEWHERE),
             "model": ModelChoice(use="lad.trained:load", options={"path": path}),

@@ -91,7 +91,7 @@ def run_experiments(
 
 
 def run_experiment(experiment: Experiment, jobs: int, progress: Progress) -> str | None:
-    """Run what is missing of a study; return a line that says so when sessions failed.
+    """Run what is missing of a study; return a line about it when sessions failed.
 
     Raises
     ------

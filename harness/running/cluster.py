@@ -3,13 +3,11 @@
 import gc
 import logging
 import pickle
-import socket
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import partial
 from queue import Empty, Queue
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -25,31 +23,19 @@ PATIENCE_S = 15
 """How long a scheduler may take to answer, and its first worker to be there, s."""
 
 LOOK_S = 5
-"""How often it is looked whether there still is a worker while none answers, s."""
+"""How often to check that there is still a worker while none answers, s."""
 
-LOST = "the Dask scheduler was lost; the same command again goes on"
+LOST = "the Dask scheduler was lost; the same command resumes the run"
 
 AHEAD = 2
 """Tasks per worker thread that are handed out: the one it is in, and the next."""
 
 _LOG = logging.getLogger(__name__)
-"""What a person has to know at once; without further settings it goes to standard error."""
+"""Urgent messages; without further settings they go to standard error."""
 
 
-class UnfitError(Exception):
-    """No task can be run in this worker.
-
-    Parameters
-    ----------
-    host, address
-        The worker's machine, and Dask's name for the worker.
-    reason
-        As a sentence's end.
-    """
-
-    def __init__(self, host: str, address: str, reason: str) -> None:
-        super().__init__(host, address, reason)  # all of them: it is pickled
-        self.host, self.address, self.reason = host, address, reason
+_UNFIT = "lad-study cannot run a session here"
+"""How an error begins that says so; machine, Dask's name for the worker and a reason follow."""
 
 
 class Cluster:
@@ -60,11 +46,12 @@ class Cluster:
     client
         Connected to the scheduler.
     scheduler
-        Its address, as a person gave it.
+        Its address, as it was given.
     """
 
     def __init__(self, client: "Client", scheduler: str) -> None:
         self._client, self._scheduler = client, scheduler
+        self._last_unfit = ""
 
     def run(
         self, task: Callable[[int], T], numbers: Iterable[int]
@@ -88,7 +75,7 @@ class Cluster:
             When the scheduler is lost.
         """
         waiting, deaths = deque(numbers), Counter[int]()
-        there, done = partial(_on_worker, pickle.dumps(task)), Queue["Future[Any]"]()
+        there, done = _on_worker(pickle.dumps(task)), Queue["Future[Any]"]()
         under_way: dict[Future[Any], int] = {}
         while waiting or under_way:
             with self._loss_told():
@@ -110,7 +97,7 @@ class Cluster:
 
     @contextmanager
     def _loss_told(self) -> Iterator[None]:
-        """Say that the scheduler was lost, in whichever call that shows."""
+        """Raise that the scheduler was lost, in every call that can notice it."""
         try:
             yield
         except Exception as error:
@@ -123,7 +110,7 @@ class Cluster:
         return sum(self._client.nthreads().values())
 
     def _next(self, done: "Queue[Future[Any]]") -> "Future[Any]":
-        """Wait for a task's end; say once when there is nobody left to run any."""
+        """Wait for a task's end; log once that no worker is left."""
         said = False
         while True:
             try:
@@ -133,8 +120,9 @@ class Cluster:
             if alone and not said:
                 _LOG.warning(
                     "no worker is left at %s: waiting for one (Ctrl-C stops; what was finished "
-                    "is kept)",
+                    "is kept)%s",
                     self._scheduler,
+                    f"; the last one left, {self._last_unfit}" if self._last_unfit else "",
                 )
             said = alone
 
@@ -146,33 +134,45 @@ class Cluster:
         error = future.exception()
         if error is None:
             return _placed(*future.result())
-        if isinstance(error, UnfitError):
-            self._client.retire_workers([error.address])
-            return Died(f"on {error.host}: {error.reason}", retried=True)
+        if error.args[:1] == (_UNFIT,):
+            _, host, address, reason = error.args
+            self._client.retire_workers([address])
+            self._last_unfit = f"on {host}: {reason}"
+            return Died(self._last_unfit, retried=True, unfit=True)
         # A killed worker's number has been tried on several ones by Dask itself.
         return Died(_in_one_line(error), retried=not isinstance(error, KilledWorker))
 
 
-def _on_worker(task: bytes, number: int) -> tuple[str, Any]:
-    """Return this machine's name and a task's answer.
+def _on_worker(task: bytes) -> Callable[[int], tuple[str, Any]]:
+    """Return the function that answers for a number with a machine's name and the task's answer.
 
-    Raises
-    ------
-    UnfitError
-        When the task cannot even be loaded, or says that none can be run here. As an exception,
-        because a result would have to be moved to another worker before this one may leave.
+    It travels as code, because it is defined in here, and names nothing of ours: a worker on a
+    machine without this package can still say what it lacks, instead of ending.
     """
-    from distributed import get_worker  # noqa: PLC0415  # an extra
 
-    host, address = socket.gethostname(), get_worker().address
-    try:
-        run = pickle.loads(task)  # noqa: S301  # our own
-    except BaseException as error:
-        raise UnfitError(host, address, _in_one_line(error)) from error
-    answer = run(number)
-    if isinstance(answer, Died):
-        raise UnfitError(host, address, answer.reason)
-    return host, answer
+    def run_there(number: int) -> tuple[str, Any]:
+        import pickle  # noqa: PLC0415  # it travels without its module
+        import socket  # noqa: PLC0415  # the same
+
+        from distributed import get_worker  # noqa: PLC0415  # an extra
+
+        host, address = socket.gethostname(), get_worker().address
+
+        def unfit(reason: str) -> Exception:
+            # An error, because a result would be moved to another worker before this one may leave.
+            return RuntimeError(_UNFIT, host, address, reason)
+
+        try:
+            run = pickle.loads(task)  # noqa: S301  # our own
+        except BaseException as error:  # noqa: BLE001  # it is told, by a name the runner knows
+            reason = " ".join(f"{type(error).__name__}: {error}".split())
+            raise unfit(reason) from None
+        answer = run(number)
+        if type(answer).__name__ == "Died":
+            raise unfit(answer.reason)
+        return host, answer
+
+    return run_there
 
 
 def _in_one_line(error: BaseException) -> str:
@@ -180,7 +180,7 @@ def _in_one_line(error: BaseException) -> str:
 
 
 def _placed(host: str, answer: Any) -> Any:
-    """Return an answer that says where it failed, if it did."""
+    """Return an answer that names the machine when it failed."""
     if isinstance(answer, Failed):
         return replace(answer, trace=f"On {host}:\n{answer.trace}")
     if isinstance(answer, InputError):
@@ -212,7 +212,7 @@ def cluster(scheduler: str) -> Iterator[Cluster]:
         reason = type(error).__name__
     if client is None:
         # The client that could not connect closes when it is collected, and waits for ever if that
-        # comes to pass while the next one is being made: Dask's lock is not reentrant.
+        # happens while the next one is being made: Dask's lock is not reentrant.
         gc.collect()
         raise InputError(
             f"--scheduler: no Dask scheduler answers at {scheduler!r} ({reason}); "

@@ -14,7 +14,7 @@ def open_workers(jobs: int, scheduler: str | None = None) -> AbstractContextMana
     jobs
         Number of processes on this machine.
     scheduler
-        Address of a Dask scheduler whose workers take their place.
+        Address of a Dask scheduler; its workers then run the sessions.
 
     Raises
     ------

@@ -1,10 +1,11 @@
-"""Tasks on this machine's cores: one process each, and one that dies takes nobody with it.
+"""Tasks on this machine's cores: one process each; one that dies does not disturb the others.
 
 Every worker has a pipe of its own, so the runner knows what each is doing: when one is killed, its
 number is given to another, and the others do not notice. When the runner is killed, its ends of
 the pipes close, and each worker ends with the task it is in.
 """
 
+import gc
 import multiprocessing
 import os
 import signal
@@ -20,6 +21,8 @@ from harness.running.workers import MAX_DEATHS, Died
 
 T = TypeVar("T")
 
+# Not plain fork: this process has threads, and a lock that another thread holds would stay locked
+# in the child. The fork server has one thread, and the modules are already loaded in it.
 _FORKS = "forkserver" in multiprocessing.get_all_start_methods()
 _CONTEXT = (
     multiprocessing.get_context("forkserver") if _FORKS else multiprocessing.get_context("spawn")
@@ -31,19 +34,21 @@ _ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", 
 def warm_up(modules: Iterable[str]) -> None:
     """Start, in the background, the process that workers are forked from.
 
-    It imports ``modules`` once for all of them, while this process goes on; where there is no
-    forking, every worker imports for itself.
+    It imports ``modules`` once for all of them, while this process continues; without forking,
+    every worker imports them itself.
     """
     if not _FORKS:
         return
     _CONTEXT.set_forkserver_preload(list(modules))
     # A folder in the working directory must not hide an installed package there.
+    # Ctrl-C reaches every process of the terminal, but only the runner may act on it: it keeps what
+    # is finished and ends the others. Each would otherwise end with a traceback of its own.
     with _environment({**_ONE_THREAD, "PYTHONSAFEPATH": "1"}), _deaf_to_interrupts():
         forkserver.ensure_running()
 
 
 class Processes:
-    """Worker processes; a context, at whose end they are gone.
+    """Worker processes; a context that ends them at its exit.
 
     Parameters
     ----------
@@ -63,6 +68,7 @@ class Processes:
         workers = [*self._idle, *(worker for worker, _ in self._busy.values())]
         for worker in workers:
             worker.dismiss()
+        # First all signals, then all waits: the workers end at the same time.
         for worker in workers:
             worker.process.join()
 
@@ -76,22 +82,24 @@ class Processes:
         task
             Has to be importable in another process; so has its answer.
         numbers
-            Each is given to one process; to another one, when that dies.
+            Each is given to one process, and to another one when that dies.
         """
         waiting, deaths = deque(numbers), Counter[int]()
         while waiting or self._busy:
             self._assign(task, waiting)
+            # A pipe is ready when it has an answer, and also when its worker has died.
             for pipe in cast("list[Connection]", wait(list(self._busy))):
                 worker, number = self._busy.pop(pipe)
                 answer: T | Died = worker.answer()
                 if isinstance(answer, Died):
+                    # A session that kills its own process would kill every next one, too.
                     deaths[number] += 1
                     answer = Died(answer.reason, retried=deaths[number] < MAX_DEATHS)
                     if answer.retried:
                         waiting.append(number)
                 else:
                     self._idle.append(worker)
-                # At once: what the caller does with the answer must not keep a core waiting.
+                # Before the yield: the caller's work on the answer must not keep a core waiting.
                 self._assign(task, waiting)
                 yield number, answer
 
@@ -100,7 +108,7 @@ class Processes:
             worker = self._idle.pop() if self._idle else _Worker()
             number = waiting.popleft()
             self._busy[worker.pipe] = (worker, number)
-            with suppress(OSError):  # it is dead, which its answer is going to say
+            with suppress(OSError):  # it is dead; ``answer`` then returns ``Died``
                 worker.pipe.send((task, number))
 
 
@@ -115,7 +123,7 @@ class _Worker:
         theirs.close()  # else a dead worker's pipe would stay open
 
     def answer(self) -> Any:
-        """Return what the worker answers; ``Died``, and the worker has, when it has none."""
+        """Return the worker's answer; ``Died`` when it ended without one."""
         try:
             answer = self.pipe.recv()
         except (EOFError, OSError):
@@ -126,18 +134,19 @@ class _Worker:
         return answer
 
     def dismiss(self) -> None:
-        """End the worker, whatever it is doing; it holds nothing that could be lost."""
+        """End the worker at once; it holds nothing that could be lost."""
         self.pipe.close()
         self.process.terminate()
 
     def _end(self) -> None:
         self.dismiss()
-        self.process.join()
+        self.process.join()  # only then is there an exit code
 
 
 def _serve(pipe: Connection) -> None:
     """Answer until the runner has gone."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the runner's to handle
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # only the runner handles Ctrl-C
+    gc.freeze()  # what is imported stays: no collection has to look through it
     with suppress(EOFError, OSError):
         while True:
             task, number = pipe.recv()

@@ -1,5 +1,6 @@
-"""Make sessions from their journals: what a living person did is not lost with a process."""
+"""Rebuild sessions from journals: a killed process loses nothing that a person did."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from protocols.record.store import (
     whole_sessions,
     write_session,
 )
+from protocols.resolved import ResolvedStudy
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,9 +32,9 @@ class Recovery:
     whole
         Participants whose session was whole already.
     recovered
-        Participants whose session was made from its journal.
+        Participants whose session was rebuilt from its journal.
     faults
-        Why others could not be, a line each.
+        Why others could not be rebuilt, one line each.
     """
 
     whole: tuple[str, ...]
@@ -40,11 +42,20 @@ class Recovery:
     faults: tuple[str, ...]
 
 
-def recover_sessions(folder: Path) -> Recovery:
+def recover_sessions(
+    folder: Path, with_code: Callable[[ResolvedStudy], ResolvedStudy] | None = None
+) -> Recovery:
     """Make each session that has a journal, and is missing or damaged, from its journal.
 
     A damaged session is moved to ``set-aside``, never deleted; a journal stays where it is. An
     unfinished journal gives the session up to its end, its last lap as interrupted.
+
+    Parameters
+    ----------
+    folder
+        The study directory.
+    with_code
+        Gives the recorded study its own parts' code, where it has any and it may be run.
 
     Raises
     ------
@@ -52,7 +63,8 @@ def recover_sessions(folder: Path) -> Recovery:
         When the folder is no study directory, or another process writes into it.
     """
     header = read_header(folder)
-    run = StudyRun(header.study, header.seed or 0, header.digest)
+    study = header.study if with_code is None else with_code(header.study)
+    run = StudyRun(study, header.seed or 0, header.digest)
     recovered, faults = [], []
     with locked(folder):
         whole = set(whole_sessions(folder, header.digest))

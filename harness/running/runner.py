@@ -70,26 +70,26 @@ def run_study(
 
     Parameters
     ----------
-    plan
+    run
         The study and its seed.
     out
         The study directory; made when it does not exist. Finished sessions in it are kept.
     jobs
         Number of processes, 1 or more.
     tell
-        Told whenever a session has ended.
+        Called when a session has ended.
     scheduler
-        Address of a Dask scheduler whose workers run the sessions; only this process writes.
+        Address of a Dask scheduler; its workers run the sessions, and only this process writes.
     retry_failed
         Whether sessions that raised in an earlier run are run again.
 
     Raises
     ------
     InputError
-        When somebody the protocol names cannot be made, or ``out`` holds something else, or
-        another study; nothing is touched then.
+        When a part that the protocol names cannot be made, or ``out`` holds something else or
+        another study; nothing is changed then.
     OSError
-        When something cannot be written, or no worker can be had; what was finished is kept.
+        When something cannot be written, or there is no worker; what was finished is kept.
     """
     run = portable(run)
     header = refuse_another_study(out, run.study, run.seed)
@@ -122,7 +122,7 @@ def _sessions(
 
 
 def _complete(run: StudyRun, out: Path) -> Outcome:
-    """Put a study in order whose sessions are all there."""
+    """Bring the tables of a study up to date when no session is missing."""
     with _opened(run, out) as named:
         build_tables(out, named.digest)
         return _outcome(named, out, 0)
@@ -130,13 +130,13 @@ def _complete(run: StudyRun, out: Path) -> Outcome:
 
 @contextmanager
 def _opened(run: StudyRun, out: Path) -> Iterator[StudyRun]:
-    """Hold the study directory, in order, while a run writes into it."""
+    """Lock the study directory, and tidy it up, while a run writes into it."""
     with locked(out):
         yield _named(run, open_folder(out, run.study, run.seed))
 
 
 def _named(run: StudyRun, header: StudyHeader) -> StudyRun:
-    """Return the plan with the name that the directory's sessions give their study."""
+    """Return the run with the digest that the directory's sessions give their study."""
     return replace(run, digest=header.digest)
 
 
@@ -145,9 +145,9 @@ def _planned(run: StudyRun) -> range:
 
 
 def _missing(run: StudyRun, out: Path, *, retry_failed: bool) -> list[int]:
-    """Return who has neither finished nor, left alone, failed.
+    """Return the participants who have not finished; failed ones only when they are retried.
 
-    A session whose processes died is missing: memory may have been short, or a machine taken away.
+    A session whose processes died counts as missing: memory was short, or a machine was removed.
     """
     settled = set(finished_sessions(out, run.digest))
     if not retry_failed:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from harness.running.workers import Died, Failed, Finished, Workers
 from protocols.files.errors import InputError
 
-if TYPE_CHECKING:  # only: the workers' start must not wait for what reading a protocol needs
+if TYPE_CHECKING:  # only for types: the workers start without the modules that read a protocol
     from harness.session.study_run import StudyRun
     from harness.world.world import World
     from protocols.course.schema import Course
@@ -30,12 +30,12 @@ def try_parts(workers: Workers, run: "StudyRun") -> None:
     InputError
         When a part that the protocol names cannot be made where the sessions are going to run.
     ChildProcessError
-        When a worker cannot even try.
+        When no worker can try it.
     """
     for _, answer in workers.run(partial(_part_fault, run), [1]):
         if isinstance(answer, InputError):
             raise answer
-        if isinstance(answer, Died) and not answer.retried:
+        if isinstance(answer, Died) and (answer.unfit or not answer.retried):
             raise ChildProcessError(f"no session can be run: {answer.reason}")
 
 
@@ -51,7 +51,7 @@ def run_sessions(
 
 
 def attempt(run: "StudyRun", number: int) -> Finished | Failed | Died:
-    """Run one session; whatever it raises, or ends by, ends this session only.
+    """Run one session; an error or exit in it ends this session only.
 
     Returns
     -------

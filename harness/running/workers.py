@@ -14,19 +14,22 @@ MAX_DEATHS = 3
 class Died:
     """The process that ran a task ended without an answer.
 
-    A task may answer this itself, to say that its process is unfit for any task: the process is
-    then ended, and the number tried in another one.
+    A task may return this itself when its process is unfit for any task: the process is then
+    ended, and the number is tried in another one.
 
     Attributes
     ----------
     reason
-        What is known about it, as a sentence's end.
+        What is known about it, as the end of a sentence.
     retried
         Whether the number is tried again.
+    unfit
+        Whether no task at all could be run in that process.
     """
 
     reason: str
     retried: bool = False
+    unfit: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +43,7 @@ class Finished:
     wall_s
         How long it took, s.
     warned
-        What Python warned of meanwhile.
+        Python's warnings during the session.
     """
 
     files: dict[str, bytes]

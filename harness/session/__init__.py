@@ -1,1 +1,1 @@
-"""One participant's visit: its stages, the lap, and everything that decides what happens in one."""
+"""One participant's session: its stages, the lap, and the parts that decide what happens in it."""

@@ -1,4 +1,4 @@
-"""How the driver's and the assistant's commands become one."""
+"""How the driver's and the assistant's commands are combined."""
 
 from collections.abc import Callable
 from typing import Literal

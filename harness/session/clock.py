@@ -1,4 +1,4 @@
-"""Time in a lap: as fast as the computer can, or as fast as a person lives."""
+"""Time in a lap: as fast as the computer can, or real time for people."""
 
 import threading
 import time
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, Protocol
 
 StopReason = Literal["stopped", "disconnected", "interrupted"]
-"""Stopped by who holds the clock; a person's connection was lost; the program itself ended."""
+"""Stopped by the experimenter; a person's connection was lost; the program itself ended."""
 
 CATCH_UP_S = 0.05
 """A step that starts later than this moves the lap's zero; a smaller delay is caught up, s."""
@@ -20,7 +20,7 @@ class LapStoppedError(Exception):
     reason
         As the record has it.
     note
-        Why, in the words of who stopped it.
+        Why, in the words of the person who stopped it.
     """
 
     def __init__(self, reason: StopReason, note: str | None = None) -> None:
@@ -31,14 +31,14 @@ class LapStoppedError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """How a step's start kept to the wall clock.
+    """How late a step started by the wall clock.
 
     Attributes
     ----------
     late_s
         From the moment the step was due to the moment it started, s; 0 or more.
     shift_s
-        By how much the lap's zero moved before the step because of that, s; 0 or more.
+        How far the lap's zero moved before the step for that reason, s; 0 or more.
     paused_s
         How long the lap was paused before the step, s; 0 or more.
     """
@@ -52,7 +52,7 @@ class Clock(Protocol):
     """Paces a lap's control steps."""
 
     def start(self, t: float = 0.0) -> Timing | None:
-        """Begin: the lap has reached ``t`` seconds now. Returns the first step's timing."""
+        """Start at lap time ``t``, s. Returns the first step's timing."""
 
     def wait_until(self, t: float) -> Timing | None:
         """Return once ``t`` seconds of the lap have passed; None where nothing is real time.
@@ -78,7 +78,7 @@ class WallClock:
     """Real time, for living people; another thread may pause, resume and stop it.
 
     Deadlines are absolute: a small delay does not add up. After a long one, zero moves by the
-    delay, so that a late step is never made up for by a chair that hurries. Lap time excludes
+    delay, so that steps after a late one do not follow each other faster. Lap time excludes
     pauses.
     """
 
@@ -117,14 +117,14 @@ class WallClock:
                     return self._timing(-left)
 
     def pause(self) -> None:
-        """Hold the lap before its next step; does nothing while it is paused."""
+        """Pause the lap before its next step; does nothing while it is paused."""
         with self._changed:
             if self._paused_at is None:
                 self._paused_at = time.monotonic()
                 self._changed.notify_all()
 
     def resume(self) -> None:
-        """Go on; does nothing unless paused."""
+        """Resume the lap; does nothing unless it is paused."""
         with self._changed:
             if self._paused_at is not None:
                 paused = time.monotonic() - self._paused_at

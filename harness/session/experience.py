@@ -1,4 +1,4 @@
-"""What a participant lived through in a lap: what a survey is answered from."""
+"""A participant's experience of a lap, from which a survey is answered."""
 
 from collections.abc import Sequence
 
@@ -11,7 +11,7 @@ from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
 
 
 def experience_of(laps: Sequence[RecordedLap]) -> LapExperience:
-    """Return how the last of a person's laps was lived.
+    """Return a person's experience of the last lap.
 
     The person's own baseline is the latest earlier lap, practice apart, without limitation and
     without assistance; the first such lap is its own baseline.
@@ -34,7 +34,7 @@ def experience_of(laps: Sequence[RecordedLap]) -> LapExperience:
 
 
 def _interference(steps: pa.Table) -> float:
-    """Return the share of steps in which the assistant opposed what the user wanted.
+    """Return the share of steps in which the assistant opposed what the driver wanted.
 
     Opposed means: as shares of the chair's top speeds, the driver's intent and the command that
     counted point more than 90 degrees apart.

@@ -1,4 +1,4 @@
-"""What is applied in a session is written down before it acts; so a killed session can go on."""
+"""Writes what is applied in a session before it acts, so that a killed session can resume."""
 
 import os
 from collections import deque
@@ -24,7 +24,7 @@ from protocols.record.journal import (
 
 
 class Journal(Protocol):
-    """Is told what is applied, in the order in which it is."""
+    """Receives what is applied, in the order in which it is applied."""
 
     def stage(self, index: int, kind: str, lap: int | None) -> None:
         """Note that a stage begins."""
@@ -47,16 +47,15 @@ class Journal(Protocol):
 class FileJournal:
     """A journal in a file that is only ever appended to.
 
-    With entries of an earlier process, it first checks that the session says again, line by line,
-    what is there already; only then does it append. So a session that is replayed is proved equal
-    to the one that was killed.
+    With entries of an earlier process, it first checks that the session repeats them, line by line;
+    only then does it append. So a replayed session is proved equal to the one that was killed.
 
     Parameters
     ----------
     path
         The file; its folder exists.
     header
-        Whose session it is.
+        Which session it is.
 
     Raises
     ------
@@ -72,7 +71,7 @@ class FileJournal:
             refuse_other_journal(recorded, header)
             drop_torn_line(recorded)
             self.replayed.extend(recorded.entries)
-        # Unbuffered: a line that was written survives the process, whatever kills it.
+        # Unbuffered: a written line survives the process, even one that is killed.
         with naming(path):
             self._file = path.open("ab", buffering=0)
         if recorded is None:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,7 @@ from protocols.course.gates import GateCounter
 from protocols.record.rows import EndReason
 
 HOLD_S = 0.3
-"""How long a driver's last command stays in force without a new one, s, unless a study says."""
+"""How long a driver's last command stays in force without a new one, s; a study may set it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,11 +32,11 @@ class LapParts:
     Attributes
     ----------
     driver
-        Sits in the chair.
+        Drives the chair.
     demonstrator
-        Helps, or as a shadow says what it would do; None for a study without one.
+        Helps, or as a shadow gives a command that does not count; None for a study without one.
     model
-        Predicts in every step, and helps where the condition says so.
+        Predicts in every step, and helps in conditions with the model as assistant.
     """
 
     driver: Driver
@@ -46,16 +46,16 @@ class LapParts:
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """What holds in a lap.
+    """The rules of a lap.
 
     Attributes
     ----------
     limitation
         What the study does to the driver's command.
     assistant
-        Whose help counts; the others watch.
+        The assistant whose help counts; the others only watch.
     arbitration
-        How the driver's and the assistant's commands become one.
+        How the driver's and the assistant's commands are combined.
     safeguarded
         Whether the last guard against hard collisions is on.
     training
@@ -64,7 +64,7 @@ class Rules:
         A lap that takes longer ends unfinished.
     hold_s
         How long a driver's last command stays in force without a new one; then the chair is told
-        to stand.
+        to stop.
     """
 
     limitation: Limitation
@@ -76,8 +76,7 @@ class Rules:
     hold_s: float = HOLD_S
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(NamedTuple):
     """Everything that was seen, answered and done in one control step.
 
     Attributes
@@ -85,7 +84,7 @@ class Step:
     input_age_s
         How old the driver's command is that was used; 0 for one given in this step.
     timing
-        How the step's start kept to the wall clock; None in simulated time.
+        How late the step started by the wall clock; None in simulated time.
     """
 
     seen: Observation
@@ -127,7 +126,7 @@ class Ending:
 
 
 class Recorder(Protocol):
-    """Writes steps down."""
+    """Keeps steps."""
 
     def record(self, step: Step) -> None:
         """Keep one step."""
@@ -143,11 +142,11 @@ class Lap:
     parts
         The ``start_lap`` of each has been called.
     rules
-        What holds in this lap.
+        The rules of this lap.
     gates
         Counts the gates from the start.
     journal
-        Told what is applied in each step before the world moves; None for no journal.
+        Receives what is applied in each step before the world moves; None for no journal.
     """
 
     def __init__(
@@ -163,11 +162,12 @@ class Lap:
         self._rules = rules
         self._gates = gates
         self._journal = journal
+        self._bearings, self._laser_offset = world.bearings, world.laser_offset
         self._seen = world.observe()
         self._intent = STILL
         self._intent_t = self._seen.t
         self._helped = False
-        # Asked once: a protocol's isinstance costs more than a model's prediction.
+        # Checked once: a protocol's isinstance costs more than a model's prediction.
         self._onlookers = list(_onlookers(parts))
         learns = rules.training and isinstance(parts.model, Learner)
         self._learner: Learner | None = parts.model if learns else None  # type: ignore[assignment]
@@ -192,22 +192,21 @@ class Lap:
         return self._ending("time_limit", self._seen.t)
 
     def _step(self, timing: Timing | None) -> Step:
-        """Observe, drive, limit, assist, arbitrate, safeguard, move: the one place with the order.
+        """Observe, drive, limit, assist, arbitrate, safeguard, move; only here is their order.
 
         Prediction comes before learning, so what is recorded is out of sample.
         """
         seen, rules, parts = self._seen, self._rules, self._parts
         sight = self._sight(seen)
         answer = parts.driver.act(sight)
-        intent, age = self._held(answer, seen.t)
+        intent, age = self._command_in_force(answer, seen.t)
         limited = rules.limitation(intent)
         x = as_inputs(limited, seen.velocity, seen.segments)
-        for onlooker in self._onlookers:  # only who stands in the room gets to see it
+        for onlooker in self._onlookers:  # only a demonstrator sees the room
             onlooker.look(sight)
         demonstrator = None if parts.demonstrator is None else parts.demonstrator.assist(x)
         model = parts.model.assist(x)
-        by_role = {"none": NO_ASSISTANCE, "demonstrator": demonstrator, "model": model}
-        assistance = by_role[rules.assistant] or NO_ASSISTANCE
+        assistance = self._in_charge(demonstrator, model)
         arbitrated = rules.arbitration(limited, assistance)
         executed = self._world.safeguard(arbitrated) if rules.safeguarded else arbitrated
         if self._journal is not None:
@@ -221,8 +220,16 @@ class Lap:
             age, timing,
         )  # fmt: skip
 
-    def _held(self, answer: Command | None, t: float) -> tuple[Command, float]:
-        """Return the command in force and its age: a driver who says nothing is soon standing."""
+    def _in_charge(self, demonstrator: Assistance | None, model: Assistance) -> Assistance:
+        """Return the answer that counts in this lap."""
+        if self._rules.assistant == "model":
+            return model
+        if self._rules.assistant == "demonstrator" and demonstrator is not None:
+            return demonstrator
+        return NO_ASSISTANCE
+
+    def _command_in_force(self, answer: Command | None, t: float) -> tuple[Command, float]:
+        """Return the command in force and its age: without new commands the chair soon stops."""
         if answer is not None:
             self._intent, self._intent_t = answer, t
             return answer, 0.0
@@ -232,14 +239,14 @@ class Lap:
 
     def _sight(self, seen: Observation) -> Sight:
         return Sight(
-            t=seen.t,
-            pose=seen.pose,
-            velocity=seen.velocity,
-            ranges=seen.ranges,
-            bearings=self._world.bearings,
-            laser=self._world.laser_offset,
-            gates_passed=self._gates.passed,
-            helped=self._helped,
+            seen.t,
+            seen.pose,
+            seen.velocity,
+            seen.ranges,
+            self._bearings,
+            self._laser_offset,
+            self._gates.passed,
+            self._helped,
         )
 
     def _broken_off(self, reason: EndReason, note: str | None) -> Ending:

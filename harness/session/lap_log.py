@@ -1,4 +1,4 @@
-"""Writes a lap's steps down, and sums the lap up."""
+"""Records a lap's steps, and computes the lap's row from them."""
 
 import math
 from typing import Any
@@ -8,8 +8,12 @@ import pyarrow as pa
 
 from harness.session.lap import Ending, Step
 from lad.assistant import Assistance
+from lad.command import Command
 from protocols.course.centreline import Centreline
 from protocols.record.recorder import StepRecorder
+
+NOTHING = (None, None)
+"""In the place of a command that was not given."""
 
 
 class LapLog:
@@ -18,7 +22,7 @@ class LapLog:
     Parameters
     ----------
     centreline
-        The course's, for arc length and section: metrics only, nobody drives by them.
+        The course's, for arc length and section: only for metrics, not for driving.
     demonstrated
         Whether the demonstrator drives in this lap; otherwise it is a shadow.
     """
@@ -34,6 +38,9 @@ class LapLog:
         """Keep one step."""
         seen, pose = step.seen, step.seen.pose
         result, timing = step.result.pose, step.timing
+        h, (v, w) = _demonstration(step.demonstrator)
+        model = step.model
+        mean_v, mean_w = model.mean or NOTHING
         self._near, offset = self._centreline.locate(pose.x, pose.y, self._near)
         section = self._centreline.section(self._near)
         self._steps.append(
@@ -42,8 +49,16 @@ class LapLog:
             t_s=seen.t,
             intent_v=step.intent.v,
             intent_w=step.intent.w,
-            **_demonstration(step.demonstrator, drives=self._demonstrated),
-            **_prediction(step.model),
+            h=h if self._demonstrated else None,
+            a_v=v if self._demonstrated else None,
+            a_w=w if self._demonstrated else None,
+            h_would=h,
+            would_v=v,
+            would_w=w,
+            p_help=model.p_help,
+            mean_v=mean_v,
+            mean_w=mean_w,
+            variance=model.variance,
             control=step.control,
             arbitrated_v=step.arbitrated.v,
             arbitrated_w=step.arbitrated.w,
@@ -85,24 +100,17 @@ class LapLog:
         }
 
 
-def _demonstration(answer: Assistance | None, *, drives: bool) -> dict[str, Any]:
+def _demonstration(answer: Assistance | None) -> tuple[int | None, Command | tuple[None, None]]:
+    """Return what a demonstrator signals, and the command it gives."""
     if answer is None:
-        return {}
-    h = 1 if answer.helping else -1
-    v, w = answer.command if answer.helping and answer.command else (None, None)
-    row: dict[str, Any] = {"h_would": h, "would_v": v, "would_w": w}
-    if drives:
-        row |= {"h": h, "a_v": v, "a_w": w}
-    return row
-
-
-def _prediction(answer: Assistance) -> dict[str, Any]:
-    v, w = answer.mean or (None, None)
-    return {"p_help": answer.p_help, "mean_v": v, "mean_w": w, "variance": answer.variance}
+        return None, NOTHING
+    if answer.helping:
+        return 1, answer.command or NOTHING
+    return -1, NOTHING
 
 
 def summary(steps: pa.Table, ending: Ending, period: float) -> dict[str, Any]:
-    """Sum a lap up from its own steps: the lap row's fields that follow from the record.
+    """Return the lap row's fields that follow from the lap's own steps.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What the study does to the driver's command: sharp right turns are slowed.
+"""The control limitation: right turns are slowed.
 
 Section IV.A of Soh & Demiris: "scaling right turns to a maximum of 0.15 rad/s".
 """

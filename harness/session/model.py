@@ -1,38 +1,44 @@
-"""The learning assistant a protocol names, and what of it goes into the record."""
+"""The learning assistant a protocol names, and what the record keeps of it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from lad.assistant import Assistant
 from lad.lad_assistant import LADAssistant
 from participants.part_loader import load_factory, refuse_missing_methods
+from protocols.code_beside import PartBeside
 from protocols.files.errors import InputError
 from protocols.model_choice import ModelChoice
-from protocols.shipped_parts import MODELS
+from protocols.shipped_parts import LAD
 
 
-def make_model(choice: ModelChoice, words: Mapping[str, str] | None = None) -> Assistant:
+def make_model(
+    choice: ModelChoice,
+    words: Mapping[str, str] | None = None,
+    code: Sequence[PartBeside] = (),
+) -> Assistant:
     """Return the assistant that learns in a study.
 
-    Somebody else's is named by a dotted path ``package.module:factory``; the factory takes the
-    protocol's options as keyword arguments.
+    The factory of any but ``lad`` takes the protocol's options as keyword arguments.
 
     Parameters
     ----------
     choice
         As the protocol has it.
     words
-        What stands for a word in braces in an option that is text: ``{participant}`` for the
+        The values of words in braces in an option that is text: ``{participant}`` for the
         participant's id, ``{folder}`` for the folder where relative paths start.
+    code
+        The parts beside the protocol file that may be run.
 
     Raises
     ------
     InputError
         When it cannot be imported, does not take the options, or is no assistant.
     """
-    if choice.use in MODELS:
+    if choice.use == LAD:
         return LADAssistant(choice.parameters)
-    factory = load_factory("model", MODELS, choice.use)
+    factory = load_factory("model", choice.use, code)
     try:
         made = factory(**_filled_in(choice.options, words or {}))
     except Exception as error:  # other people's code may fail in any way

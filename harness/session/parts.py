@@ -1,8 +1,11 @@
 """What takes part in one session: the person, and every part that the protocol names."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+
+import numpy as np
 
 from harness.session.lap import LapParts
 from harness.session.model import make_model
@@ -16,11 +19,15 @@ from participants.driver import Driver
 from participants.pages import PageReader, SimulatedReader
 from participants.registry import make_demonstrator, make_driver, make_impaired, make_respondent
 from participants.setup import DemonstratorSetup, DriverSetup, ImpairmentSetup, RespondentSetup
+from participants.sight import Sight
 from participants.survey import Question, Respondent
+from protocols.cohort import ImpairmentChoice
+from protocols.files.errors import InputError
 from protocols.groups import Group
 from protocols.instrument import Instrument, Item
 from protocols.order import laps_of
 from protocols.record.rows import participant_id
+from protocols.shipped_parts import Role, shipped_factory
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +37,7 @@ class SessionParts:
     Attributes
     ----------
     person
-        Who the participant is.
+        The participant.
     lap
         Driver, demonstrator and model.
     respondent
@@ -48,35 +55,95 @@ class SessionParts:
     models: Mapping[str, Assistant] = field(default_factory=dict)
 
 
-def make_every_part(run: StudyRun) -> None:
+def make_every_part(run: StudyRun, *, only_shipped: bool = False) -> None:
     """Make each part of the first session once, so that a mistake shows before anything runs.
+
+    Parameters
+    ----------
+    run
+        The study.
+    only_shipped
+        Whether to leave out the parts whose code is not ours.
 
     Raises
     ------
     InputError
-        When a driver, demonstrator, model or respondent cannot be made.
+        When a driver, demonstrator, model or respondent cannot be made; with its place in the
+        protocol file.
     """
-    person = draw_person(run, 1)
-    make_parts(run, 1, person)
-    for group in run.study.protocol.groups.values():
-        _make_model_of(run, group)
-    for impairment in run.study.protocol.cohort.impairments:
-        make_parts(run, 1, replace(person, impairment=impairment))
+    cohort, protocol = run.study.protocol.cohort, run.study.protocol
+    with _placed(run, "cohort.traits"):
+        person = draw_person(run, 1)
+
+    def wanted(role: Role, use: str) -> bool:
+        return not only_shipped or shipped_factory(role, use) is not None
+
+    driver: Driver = _Nobody()
+    if wanted("driver", cohort.driver.use):
+        with _placed(run, "cohort.driver.options"):
+            driver = _driver_alone(run, 1, person)
+    for i, impairment in enumerate(cohort.impairments):
+        if wanted("impairment", impairment.use):
+            with _placed(run, f"cohort.impairments[{i}]"):
+                _impaired(run, 1, impairment, driver)
+    if cohort.demonstrator is not None and wanted("demonstrator", cohort.demonstrator.use):
+        with _placed(run, "cohort.demonstrator.options"):
+            _demonstrator(run, 1)
+    if wanted("model", protocol.model.use):
+        with _placed(run, "model"):
+            _model(run, 1)
+    if cohort.respondent is not None and wanted("respondent", cohort.respondent.use):
+        with _placed(run, "cohort.respondent"):
+            _respondent(run, 1, person)
+    for name, group in protocol.groups.items():
+        _make_parts_of_group(run, name, group, wanted)
 
 
-def _make_model_of(run: StudyRun, group: Group) -> None:
-    """Make what is different for a group, as in ``make_parts``."""
+def _make_parts_of_group(
+    run: StudyRun, name: str, group: Group, wanted: Callable[[Role, str], bool]
+) -> None:
+    """Make what is different for a group."""
+    own = _as_group(run, group)
+    if group.model is not None and wanted("model", group.model.use):
+        with _placed(run, f"groups.{name}.model"):
+            _model(own, 1)
+    if group.demonstrator is not None and wanted("demonstrator", group.demonstrator.use):
+        with _placed(run, f"groups.{name}.demonstrator"):
+            _demonstrator(own, 1)
+
+
+class _Nobody:
+    """Stands where a driver is that is not made."""
+
+    def start_lap(self, lap: int, rng: np.random.Generator) -> None:
+        """Do nothing."""
+
+    def act(self, sight: Sight) -> None:
+        """Give no command."""
+
+
+@contextmanager
+def _placed(run: StudyRun, where: str) -> Iterator[None]:
+    """Say of a fault where in the protocol file its cause is."""
+    try:
+        yield
+    except InputError as error:
+        place = run.study.at(where)
+        raise InputError(*(f"{place}{fault}" for fault in error.faults)) from error
+
+
+def _as_group(run: StudyRun, group: Group) -> StudyRun:
+    """Return the study with the model and the demonstrator of a group."""
     protocol = run.study.protocol
     changes: dict[str, object] = {"model": group.model or protocol.model, "groups": {}}
     if group.demonstrator is not None:
         update = {"demonstrator": group.demonstrator}
         changes["cohort"] = protocol.cohort.model_copy(update=update)
-    study = replace(run.study, protocol=protocol.model_copy(update=changes))
-    make_parts(replace(run, study=study), 1)
+    return replace(run, study=replace(run.study, protocol=protocol.model_copy(update=changes)))
 
 
 def draw_person(run: StudyRun, number: int) -> Person:
-    """Return the person who is a synthetic participant, the same one in every run."""
+    """Return a synthetic participant, the same person in every run."""
     return drawn_from_cohort(run.study.protocol.cohort, generator(run.seed, number, "person"))
 
 
@@ -88,7 +155,7 @@ def make_parts(run: StudyRun, number: int, person: Person | None = None) -> Sess
     run, number
         The study and the participant, counted from 1.
     person
-        Who it is; None for the synthetic person that the seed draws.
+        The participant; None for the synthetic person that the seed draws.
 
     Raises
     ------
@@ -111,6 +178,11 @@ def make_parts(run: StudyRun, number: int, person: Person | None = None) -> Sess
 
 def _driver(run: StudyRun, number: int, person: Person) -> Driver:
     """Return the driver, with the person's impairment around it if the person has one."""
+    driver, impairment = _driver_alone(run, number, person), person.impairment
+    return driver if impairment is None else _impaired(run, number, impairment, driver)
+
+
+def _driver_alone(run: StudyRun, number: int, person: Person) -> Driver:
     choice = run.study.protocol.cohort.driver
     setup = DriverSetup(
         course=run.study.course,
@@ -119,12 +191,13 @@ def _driver(run: StudyRun, number: int, person: Person) -> Driver:
         options=choice.options,
         folder=run.study.folder,
     )
-    driver, impairment = make_driver(choice.use, setup), person.impairment
-    if impairment is None:
-        return driver
+    return make_driver(choice.use, setup, run.study.code)
+
+
+def _impaired(run: StudyRun, number: int, impairment: ImpairmentChoice, driver: Driver) -> Driver:
     rng = generator(run.seed, number, "impairment")
     around = ImpairmentSetup(driver, impairment.severity, rng, impairment.options)
-    return make_impaired(impairment.use, around)
+    return make_impaired(impairment.use, around, run.study.code)
 
 
 def _demonstrator(run: StudyRun, number: int) -> Demonstrator | None:
@@ -132,13 +205,14 @@ def _demonstrator(run: StudyRun, number: int) -> Demonstrator | None:
     if choice is None:
         return None
     rng = generator(run.seed, number, "demonstrator")
-    return make_demonstrator(choice.use, DemonstratorSetup(run.study.course, rng, choice.options))
+    setup = DemonstratorSetup(run.study.course, rng, choice.options)
+    return make_demonstrator(choice.use, setup, run.study.code)
 
 
 def _model(run: StudyRun, number: int) -> Assistant:
     folder = str(run.study.folder or Path())
     words = {"participant": participant_id(number), "folder": folder}
-    return make_model(run.study.protocol.model, words)
+    return make_model(run.study.protocol.model, words, run.study.code)
 
 
 def _respondent(run: StudyRun, number: int, person: Person) -> Respondent | None:
@@ -154,11 +228,11 @@ def _respondent(run: StudyRun, number: int, person: Person) -> Respondent | None
         style=person.style,
         options=choice.options,
     )
-    return make_respondent(choice.use, setup)
+    return make_respondent(choice.use, setup, study.code)
 
 
 def question(instrument: Instrument, item: Item) -> Question:
-    """Return an item as a respondent gets to know it."""
+    """Return an item as a respondent reads it."""
     return Question(
         instrument=instrument.name,
         item=item.id,

@@ -1,4 +1,4 @@
-"""A session from its journal alone: nobody has to be there again."""
+"""A session from its journal alone, without its people."""
 
 from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
@@ -44,8 +44,8 @@ def replay(
     world
         Of the study's course.
     parts
-        Those of the session. Only the model is asked again, and what the driver is is taken from
-        it; people give what they gave then.
+        Those of the session. Only the model answers again, and the driver's kind is taken from
+        them; people's inputs come from the journal.
 
     Raises
     ------
@@ -71,11 +71,11 @@ def replay(
 
 
 class _UnfitEntryError(Exception):
-    """The journal's next entry is not what the session comes to."""
+    """The journal's next entry is not the one that the session needs."""
 
 
 class Entries:
-    """A journal's entries, taken one by one; as a journal, it takes what it is told as read."""
+    """A journal's entries, read one by one; as the session's journal, it skips each entry."""
 
     def __init__(self, entries: Iterable[Entry]) -> None:
         self.left = deque(entries)
@@ -86,7 +86,7 @@ class Entries:
         Raises
         ------
         LapStoppedError
-            When there is none.
+            When there is no further entry.
         """
         if not self.left:
             raise LapStoppedError("interrupted", ENDS_HERE)
@@ -96,7 +96,7 @@ class Entries:
         return self.left[0][key]
 
     def has(self, key: str) -> bool:
-        """Tell whether the next entry is of this kind."""
+        """Return whether the next entry is of this kind."""
         return bool(self.left) and key in self.left[0]
 
     def stage(self, index: int, kind: str, lap: int | None) -> None:
@@ -179,7 +179,7 @@ class _Respondent:
     def answer(
         self,
         questions: Sequence[Question],
-        lived: LapExperience,  # noqa: ARG002  # the seam's
+        experience: LapExperience,  # noqa: ARG002  # the seam's
         rng: np.random.Generator,  # noqa: ARG002  # the seam's
     ) -> tuple[Answer, ...]:
         given = tuple(self._entries.next("answers"))

@@ -12,7 +12,7 @@ def _child(seed: int, participant: int, name: str) -> np.random.SeedSequence:
 def generator(seed: int, participant: int, name: str) -> np.random.Generator:
     """Return the random numbers of one component of one participant's session.
 
-    Children are found by name, not by order: adding a component moves nobody else's draws, and a
+    Children are found by name, not by order: adding a component changes no other draws, and a
     participant's draws do not depend on how many others take part.
 
     Parameters
@@ -26,14 +26,14 @@ def generator(seed: int, participant: int, name: str) -> np.random.Generator:
 
     Examples
     --------
-    >>> stream(0, 1, "traits").random() == stream(0, 1, "traits").random()
+    >>> generator(0, 1, "traits").random() == generator(0, 1, "traits").random()
     True
-    >>> stream(0, 1, "traits").random() == stream(0, 2, "traits").random()
+    >>> generator(0, 1, "traits").random() == generator(0, 2, "traits").random()
     False
     """
     return np.random.default_rng(_child(seed, participant, name))
 
 
 def fingerprint(seed: int, participant: int, name: str) -> int:
-    """Return a 64 bit number that identifies a stream, for the record."""
+    """Return a 64 bit number that identifies a generator, for the record."""
     return int(_child(seed, participant, name).generate_state(1, np.uint64)[0])

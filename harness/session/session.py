@@ -1,4 +1,4 @@
-"""One participant's visit, stage by stage."""
+"""One participant's session, stage by stage."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -39,7 +39,7 @@ from protocols.record.session import RecordedLap, SessionRecord
 
 
 class Session:
-    """One participant's visit.
+    """One participant's session.
 
     Parameters
     ----------
@@ -54,12 +54,12 @@ class Session:
     clock
         Paces the laps; virtual by default.
     journal
-        Told what is applied before it acts; None for no journal.
+        Receives what is applied before it acts; None for no journal.
 
     Attributes
     ----------
     stages
-        What the visit consists of, in order.
+        The stages of the session, in order.
     done
         How many of them are over.
     """
@@ -116,7 +116,7 @@ class Session:
         return stage
 
     def record(self) -> SessionRecord:
-        """Return what is on record so far."""
+        """Return the record so far."""
         trained = any(recorded.row.training for recorded in self._laps)
         return SessionRecord(
             participant=self._participant_row(),
@@ -246,7 +246,7 @@ class Session:
 
 
 def rules_of(condition: Condition, time_limit_s: float, hold_s: float) -> Rules:
-    """Return what holds in a lap of a condition."""
+    """Return the rules of a lap of a condition."""
     limit = condition.limitation
     return Rules(
         limitation=unlimited if limit is None else right_turn_limit(limit.right_turn_rad_s),

@@ -22,7 +22,7 @@ class Stage:
         Position of the lap that is driven, or that is asked about or rested from; None where the
         stage belongs to no lap.
     planned
-        That lap as the protocol plans it; None as for ``lap``.
+        That lap in the protocol; None as for ``lap``.
     """
 
     kind: StageKind

@@ -10,14 +10,14 @@ from protocols.resolved import ResolvedStudy
 
 @dataclass(frozen=True, slots=True)
 class StudyRun:
-    """Everything a session depends on, besides the participant's number.
+    """Everything that a session depends on, except the participant's number.
 
     Attributes
     ----------
     study
         Protocol, course and questionnaires.
     seed
-        From which every draw comes; 0 or more.
+        Of every random draw; 0 or more.
     digest
         By which sessions say what study they belong to; None when they are not kept. It is the
         study directory's own, which an earlier version may have computed.

@@ -24,7 +24,7 @@ from protocols.pose import Pose
 
 @contextlib.contextmanager
 def _hushed() -> Iterator[None]:
-    """Send what the C library prints nowhere."""
+    """Discard what the C library prints."""
     sys.stdout.flush()
     sys.stderr.flush()
     kept, nowhere = (os.dup(1), os.dup(2)), os.open(os.devnull, os.O_WRONLY)
@@ -72,7 +72,7 @@ class BulletChair:
     Parameters
     ----------
     boxes
-        What stands in the way.
+        The obstacles.
     step
         Length of a physics step, s.
     """
@@ -104,7 +104,7 @@ class BulletChair:
         self._close()
 
     def place(self, pose: Pose) -> None:
-        """Put the chair down somewhere, at rest."""
+        """Place the chair at a pose, at rest."""
         x, y, heading = pose
         cx, cy, cz = self._centre
         cos, sin = math.cos(heading), math.sin(heading)
@@ -121,21 +121,20 @@ class BulletChair:
 
     def drive(self, v: float, w: float) -> None:
         """Set the wheels' speeds for a velocity of the chair, m/s and rad/s."""
-        for wheel, side in zip(self._wheels, (-1.0, 1.0), strict=True):
-            pybullet.setJointMotorControl2(
-                self._chair,
-                wheel,
-                pybullet.VELOCITY_CONTROL,
-                targetVelocity=(v + side * w * TRACK / 2) / WHEEL_RADIUS,
-                force=MOTOR_TORQUE,
-                # The default of 0.1 takes tens of steps to reach a speed.
-                velocityGain=1.0,
-                physicsClientId=self._client,
-            )
+        pybullet.setJointMotorControlArray(
+            self._chair,
+            self._wheels,
+            pybullet.VELOCITY_CONTROL,
+            targetVelocities=[(v + side * w * TRACK / 2) / WHEEL_RADIUS for side in (-1.0, 1.0)],
+            forces=(MOTOR_TORQUE, MOTOR_TORQUE),
+            # The default of 0.1 takes tens of steps to reach a speed.
+            velocityGains=(1.0, 1.0),
+            physicsClientId=self._client,
+        )
 
     def advance(self) -> None:
         """Make one physics step."""
-        pybullet.stepSimulation(physicsClientId=self._client)
+        pybullet.stepSimulation(self._client)
 
     def pose(self) -> Pose:
         """Return where the midpoint of the driven axle is."""

@@ -22,7 +22,7 @@ from protocols.study import CasterName, LaserSettings
 from protocols.wheelchair import LASER_AHEAD, MAX_SPEED, MAX_TURN_RATE
 
 NEAR_TOUCH = 0.02
-"""Contacts are looked for when the chair could come this near within a control step, m."""
+"""Contacts are computed when the chair could come this near within a control step, m."""
 
 
 _CASTERS: dict[CasterName, MakeCaster] = {"sweep": RaySweep, "pybullet": BulletCaster}
@@ -40,9 +40,9 @@ class BulletWorld:
     period
         Length of a control step, s.
     scan_period
-        Time between laser scans, s; in between, the last one stands.
+        Time between laser scans, s; in between, the last one is used.
     start_noise
-        How exactly the chair is put at the start; exactly when None.
+        How exactly the chair is placed at the start; without error when None.
     """
 
     def __init__(
@@ -85,7 +85,7 @@ class BulletWorld:
         return LASER_AHEAD
 
     def reset(self, rng: np.random.Generator) -> None:
-        """Put the chair at the start, at rest; ``rng`` is the lap's noise."""
+        """Place the chair at the start, at rest; ``rng`` is the lap's noise."""
         self._rng = rng
         self._step = 0
         self._seen = None
@@ -94,11 +94,11 @@ class BulletWorld:
         self._look(contact=False)
 
     def observe(self) -> Observation:
-        """Return what the instruments say now; asking again changes nothing."""
+        """Return the instruments' readings; a second call changes nothing."""
         return self._now()
 
     def safeguard(self, command: Command) -> Command:
-        """Return the command, or what the last guard against hard collisions leaves of it."""
+        """Return the command as the safeguard against hard collisions lets it through."""
         return self._guard.guard(command, self._now().pose, self._controller.velocity)
 
     def step(self, command: Command) -> None:
@@ -109,12 +109,12 @@ class BulletWorld:
         self._look(contact)
 
     def close(self) -> None:
-        """Give the physics engine back; the world is of no use afterwards."""
+        """Free the physics engine; the world cannot be used afterwards."""
         self._chair.close()
 
     def _start_pose(self, rng: np.random.Generator) -> Pose:
         noise, start = self._start_noise, self._start
-        if noise == StartNoise():  # nothing is drawn that would move the laser's draws
+        if noise == StartNoise():  # draw nothing here: it would change the laser's draws
             return start
         x, y, turn = rng.uniform(-1.0, 1.0, size=3)
         return Pose(
@@ -142,7 +142,8 @@ class BulletWorld:
             if controller.approach(target, dt):
                 chair.drive(*controller.velocity)
             chair.advance()
-            touched = (watch and chair.touching()) or touched
+            if watch:
+                touched = chair.touching() or touched
         if touched:  # what the wheels have left, or the chair would leap off when it comes free
             pose = chair.pose()
             controller.reset(chair.velocity(pose.heading))
@@ -160,7 +161,7 @@ class BulletWorld:
             velocity=self._chair.velocity(pose.heading),
             ranges=ranges,
             segments=segments,
-            clearance_m=max(0.0, clearance(self._table, pose)),
+            clearance_m=max(0.0, clearance(self._table, (pose.x, pose.y, pose.heading))),
             contact=contact,
         )
 

@@ -1,4 +1,4 @@
-"""The chair's velocity controller: it goes for the command as fast as it is allowed to."""
+"""The chair's velocity controller: it approaches the command within its acceleration limits."""
 
 import math
 
@@ -27,14 +27,14 @@ def within_limits(command: Command) -> Command:
 
 
 def approached(velocity: Command, target: Command, dt: float) -> Command:
-    """Return the velocity after some time on the way to a target.
+    """Return the velocity after some time of approach to a target velocity.
 
     Parameters
     ----------
     velocity
         Now.
     target
-        Where to; within the chair's limits.
+        The velocity to reach; within the chair's limits.
     dt
         How long, s.
 
@@ -51,23 +51,23 @@ def approached(velocity: Command, target: Command, dt: float) -> Command:
 
 
 class VelocityController:
-    """Turns commands into the velocities the wheels are asked for, step by step.
+    """Turns commands into the velocities that the wheels get, step by step.
 
     Attributes
     ----------
     velocity
-        What the wheels are asked for now.
+        What the wheels get now.
     """
 
     def __init__(self) -> None:
         self.velocity = STILL
 
     def reset(self, velocity: Command = STILL) -> None:
-        """Start from a velocity: at rest, or what is left of it after a collision."""
+        """Start from a velocity: at rest, or the one that remains after a collision."""
         self.velocity = within_limits(velocity)
 
     def approach(self, target: Command, dt: float) -> bool:
-        """Move on towards a target for a time; return whether anything changed."""
+        """Approach a target for a time; return whether the velocity changed."""
         if self.velocity == target:
             return False
         self.velocity = approached(self.velocity, target, dt)

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from lad.compiled import compiled
 from protocols import wheelchair
 from protocols.course.obstacles import Box
-from protocols.pose import Pose
 
 FRONT, REAR = wheelchair.FRONT, wheelchair.REAR
 HALF_WIDTH = wheelchair.WIDTH / 2
@@ -36,7 +35,7 @@ def box_table(boxes: Iterable[Box]) -> NDArray[np.float64]:
 
 
 @compiled
-def clearance(table: NDArray[np.float64], pose: Pose) -> float:
+def clearance(table: NDArray[np.float64], pose: tuple[float, float, float]) -> float:
     """Return the distance from the chair's footprint to the nearest box.
 
     Parameters
@@ -44,7 +43,8 @@ def clearance(table: NDArray[np.float64], pose: Pose) -> float:
     table
         As ``box_table`` returns it.
     pose
-        Where the midpoint of the driven axle is.
+        Where the midpoint of the driven axle is, and the heading: a plain tuple, which compiled
+        code takes much faster than a named one.
 
     Returns
     -------

@@ -35,17 +35,17 @@ NEAREST = 0.02
 """The nearest the sensor measures, m."""
 
 ACCURACY, RELATIVE_ACCURACY = 0.010, 0.01
-"""Up to 1 m, in m; beyond, as a share of the distance."""
+"""Published accuracy: up to 1 m, in m; beyond, as a share of the distance."""
 
 SIGMAS = 3.0
-"""How many standard deviations the published accuracy is taken for."""
+"""How many standard deviations the published accuracy is taken to be."""
 
 RESOLUTION = 0.001
 """Of a reading, m."""
 
 
 class Caster(Protocol):
-    """Finds out how far rays get."""
+    """Measures how far rays reach."""
 
     def cast(self, sensor: Pose) -> NDArray[np.float64]:
         """Return the distances from a sensor's pose, shape (n_rays,), m."""
@@ -76,11 +76,11 @@ class Laser:
     Parameters
     ----------
     boxes
-        What stands around; what ends below the laser is not seen.
+        The obstacles; those that end below the laser are not seen.
     rays
         How many rays share the 239.4 degrees, at least 2.
     make_caster
-        Called with boxes, bearings and reach; returns what finds out how far rays get.
+        Called with boxes, bearings and reach; returns a ``Caster``.
 
     Attributes
     ----------
@@ -117,8 +117,9 @@ class Laser:
             from right to left.
         """
         ranges = self._caster.cast(sensor)
-        _measure(ranges, rng.standard_normal(len(ranges)))
-        return ranges, _nearest(ranges, self._shares)
+        segments = np.empty(N_SEGMENTS)
+        _measure(ranges, rng.standard_normal(len(ranges)), self._shares, segments)
+        return ranges, segments
 
 
 def _segment_rays(bearings: NDArray[np.float64]) -> NDArray[np.int64]:
@@ -134,16 +135,11 @@ def _segment_rays(bearings: NDArray[np.float64]) -> NDArray[np.int64]:
 
 
 @compiled
-def _measure(ranges: Any, normal: Any) -> None:
+def _measure(ranges: Any, normal: Any, shares: Any, segments: Any) -> None:
+    """Turn distances into readings, and fill in each segment's nearest one."""
     for i in range(len(ranges)):
         sigma = max(ACCURACY, RELATIVE_ACCURACY * ranges[i]) / SIGMAS
         reading = RESOLUTION * round((ranges[i] + sigma * normal[i]) / RESOLUTION)
         ranges[i] = min(max(reading, NEAREST), LASER_RANGE)
-
-
-@compiled
-def _nearest(ranges: Any, shares: Any) -> Any:
-    segments = np.empty(len(shares))
     for i in range(len(shares)):
         segments[i] = ranges[shares[i, 0] : shares[i, 1]].min()
-    return segments

@@ -1,4 +1,4 @@
-"""The last guard against hard collisions, in the manner of a Dynamic Window Approach.
+"""The safeguard against hard collisions, a variant of the Dynamic Window Approach.
 
 Section V of Soh & Demiris: "simple safeguarding using a DWA variant [9] was employed to prevent
 hard collisions with obstacles". Admissible, as in Fox, Burgard & Thrun (1997), is a command after
@@ -47,16 +47,16 @@ FLOOR = 0.002
 """Distance below which the chair must not come nearer at all, m."""
 
 TOUCH = 1e-5
-"""How much nearer counts as no nearer, m."""
+"""A pose that is nearer by less than this counts as no nearer, m."""
 
 INTERVAL = 0.05
-"""Longest time between two poses that are looked at, s."""
+"""Longest time between two poses that are checked, s."""
 
 TURN_SHARES = (1.0, 0.75, 0.5, 0.25, 0.125, 0.0)
-"""What may be left of a turn."""
+"""Shares of a turn that the safeguard tries, in order."""
 
 HALVINGS = 3
-"""How often the interval is halved in which the speed that may be kept is sought."""
+"""How often the search for the largest admissible speed halves its interval."""
 
 ARM = math.hypot(FRONT, HALF_WIDTH)
 """No point of the footprint is farther from the axle's midpoint, m."""
@@ -71,7 +71,7 @@ class Safeguard:
     Parameters
     ----------
     boxes
-        What stands around.
+        The obstacles.
     period
         Length of a control step, s; at most 0.5.
     """
@@ -81,7 +81,7 @@ class Safeguard:
         self._period = period
 
     def guard(self, command: Command, pose: Pose, velocity: Command) -> Command:
-        """Return the command, or what is left of it.
+        """Return the command, or the part of it that is safe.
 
         Parameters
         ----------
@@ -91,7 +91,8 @@ class Safeguard:
             Where the chair is and what its controller drives now.
         """
         asked = within_limits(command)
-        v, w = _guarded(self._table, pose, velocity, (asked.v, asked.w), self._period)
+        # Plain tuples: compiled code takes named ones much more slowly.
+        v, w = _guarded(self._table, tuple(pose), tuple(velocity), tuple(asked), self._period)
         return command if (v, w) == asked else Command(v, w)
 
 
@@ -102,7 +103,7 @@ def _guarded(table: Any, pose: Any, velocity: Any, asked: Any, period: float) ->
     if _admissible(near, state, asked, period):
         return asked
     if not _admissible(near, state, (0.0, 0.0), period):
-        return (0.0, 0.0)  # too late for anything but the brakes
+        return (0.0, 0.0)  # too late: only braking is left
     best, least = (0.0, 0.0), np.inf
     for share in TURN_SHARES:
         turning = (1.0 - share) * abs(asked[1]) / MAX_TURN_RATE
@@ -117,7 +118,7 @@ def _guarded(table: Any, pose: Any, velocity: Any, asked: Any, period: float) ->
 
 @compiled
 def _speed_share(near: Any, state: Any, command: Any, period: float) -> float:
-    """Return what may be left of the speed at a turning rate; negative when nothing is safe."""
+    """Return the largest safe speed at a turning rate; negative when no speed is safe."""
     if _admissible(near, state, command, period):
         return 1.0
     if not _admissible(near, state, (0.0, command[1]), period):
@@ -159,8 +160,8 @@ def _admissible(near: Any, state: Any, command: Any, period: float) -> bool:
     x, y, heading, v, w = state
     front = FRONT + (ROOM if command[0] > 0.0 else 0.0)
     rear = REAR + (ROOM if command[0] < 0.0 else 0.0)
-    now = clearance(near, Pose(x, y, heading))
-    now_ahead = stretched_clearance(near, Pose(x, y, heading), front, rear)
+    now = clearance(near, (x, y, heading))
+    now_ahead = stretched_clearance(near, (x, y, heading), front, rear)
     keep, keep_ahead = _kept(now), _kept(now_ahead)
     spare = min(now - keep, now_ahead - keep_ahead)
     steps = math.ceil(period / INTERVAL)
@@ -177,13 +178,13 @@ def _admissible(near: Any, state: Any, command: Any, period: float) -> bool:
         heading += w_mean * dt
         v, w = v_next, w_next
         k += 1
-        # As long as it cannot have come too near, there is no need to look.
+        # Until it can have come too near, no check is needed.
         spare -= (abs(v_mean) + abs(w_mean) * (ARM + ROOM)) * dt
         if spare < 0.0:
-            ahead = stretched_clearance(near, Pose(x, y, heading), front, rear)
+            ahead = stretched_clearance(near, (x, y, heading), front, rear)
             spare = ahead - max(keep, keep_ahead)
             if spare < 0.0:  # the chair itself is never nearer than what it is stretched to
-                own = ahead if command[0] == 0.0 else clearance(near, Pose(x, y, heading))
+                own = ahead if command[0] == 0.0 else clearance(near, (x, y, heading))
                 spare = min(ahead - keep_ahead, own - keep)
             if spare < 0.0:
                 return False

@@ -1,7 +1,6 @@
-"""The seam every world fits: observed, guarded and moved on, one control step at a time."""
+"""The seam every world fits: observe, safeguard and move, one control step at a time."""
 
-from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +9,7 @@ from lad.command import Command
 from protocols.pose import Pose
 
 
-@dataclass(frozen=True, slots=True)
-class Observation:
+class Observation(NamedTuple):
     """What the instruments say at the start of a control step.
 
     Attributes
@@ -57,13 +55,13 @@ class World(Protocol):
         """The laser's mounting point ahead of the driven axle, m."""
 
     def reset(self, rng: np.random.Generator) -> None:
-        """Put the chair at the start, at rest; ``rng`` is the lap's noise."""
+        """Place the chair at the start, at rest; ``rng`` is the lap's noise."""
 
     def observe(self) -> Observation:
-        """Return what the instruments say now; asking again changes nothing."""
+        """Return the instruments' readings; a second call changes nothing."""
 
     def safeguard(self, command: Command) -> Command:
-        """Return the command, or what the last guard against hard collisions leaves of it."""
+        """Return the command as the safeguard against hard collisions lets it through."""
 
     def step(self, command: Command) -> None:
         """Follow a command for one control step."""

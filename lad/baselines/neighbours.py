@@ -12,8 +12,8 @@ from lad.baselines.refitted import RefittedAssistant
 from lad.errors import HyperparameterError
 
 
-class _AllThereAre:
-    """Asks fewer neighbours where there are not as many as asked for."""
+class _NearestAvailable:
+    """Uses all neighbours there are when there are fewer than ``k``."""
 
     def __init__(self, neighbours: Any, k: int) -> None:
         self._neighbours, self._k = neighbours, k
@@ -46,6 +46,6 @@ def make(k: int = 5, threshold: float = 0.5) -> RefittedAssistant:
     if type(k) is not int or k < 1:
         raise HyperparameterError(f"k: given {k!r}; allowed is a whole number, 1 or more")
     # A tree, not brute force: that would start threads in every session's process.
-    when = _AllThereAre(KNeighborsClassifier(algorithm="kd_tree"), k)
-    how = _AllThereAre(KNeighborsRegressor(algorithm="kd_tree"), k)
+    when = _NearestAvailable(KNeighborsClassifier(algorithm="kd_tree"), k)
+    how = _NearestAvailable(KNeighborsRegressor(algorithm="kd_tree"), k)
     return RefittedAssistant(when, how, threshold)

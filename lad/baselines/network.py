@@ -28,7 +28,7 @@ UNITS = 32
 """Hidden units of either network, in one layer."""
 
 EPOCHS = 200
-"""Passes over all demonstrations when fitted anew."""
+"""Passes over all demonstrations when it is fitted again."""
 
 
 class OnlineNetwork:
@@ -95,7 +95,7 @@ def make(seed: int = 0, threshold: float = 0.5) -> OnlineNetwork:
 
 
 def make_refitted(seed: int = 0, threshold: float = 0.5) -> RefittedAssistant:
-    """Return the same two networks, trained anew on all demonstrations after each.
+    """Return the same two networks, trained again from the start after each demonstration.
 
     Parameters
     ----------
@@ -106,11 +106,11 @@ def make_refitted(seed: int = 0, threshold: float = 0.5) -> RefittedAssistant:
     """
     settings = {"hidden_layer_sizes": (UNITS,), "random_state": seed, "max_iter": EPOCHS}
     when, how = MLPClassifier(**settings), MLPRegressor(**settings)
-    return RefittedAssistant(_Unhurried(when), _Unhurried(how), threshold)
+    return RefittedAssistant(_QuietNetwork(when), _QuietNetwork(how), threshold)
 
 
-class _Unhurried:
-    """Standardises and fits; having used up its passes is not worth a warning per lap."""
+class _QuietNetwork:
+    """Standardises and fits; hides the warning that all passes were used, one per lap."""
 
     def __init__(self, network: Any) -> None:
         self._estimator = make_pipeline(StandardScaler(), network)

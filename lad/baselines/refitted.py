@@ -1,4 +1,4 @@
-"""A classifier for when and a regressor for how, fitted anew after every demonstration."""
+"""A classifier for when and a regressor for how, fitted again after every demonstration."""
 
 from typing import Any
 
@@ -19,8 +19,8 @@ from lad.command import Command
 class RefittedAssistant:
     """Keeps every step it is taught, and fits two estimators when the next lap starts.
 
-    Within a demonstration it says what the demonstrations before have taught it; in the first one
-    p(h = 1 | x) is 0. Where only one answer was ever seen, p is that answer's: 0 or 1.
+    During a demonstration it answers from the earlier ones; in the first one p(h = 1 | x) is 0.
+    When all steps so far had the same answer, p is that answer: 0 or 1.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What every baseline checks: an input that it can look at, a target that it can learn from."""
+"""What every baseline checks: that it can use an input, and can learn from a target."""
 
 import math
 from numbers import Real
@@ -71,6 +71,6 @@ def checked_threshold(threshold: float) -> float:
 
 
 def answer(p_help: float, mean: Command | None, threshold: float) -> Assistance:
-    """Return what an assistant says that helps when p(h = 1 | x) >= W_h and it knows how."""
+    """Return the answer of an assistant that helps when p(h = 1 | x) >= W_h and has a command."""
     helping = mean is not None and p_help >= threshold
     return Assistance(helping=helping, command=mean if helping else None, p_help=p_help, mean=mean)

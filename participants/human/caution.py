@@ -1,30 +1,28 @@
-"""How a person slows down for what stands in the way."""
+"""How a person slows down for obstacles in the way."""
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
 from lad.command import Command
+from participants.planning.field import DistanceField
 from participants.planning.sweep import sweep
 
 HORIZON = 3.0
-"""How far ahead one looks along the way one is about to go, s."""
+"""How far ahead a person looks along the intended way, s."""
 
 NEAR = 1.0
-"""Narrow places count from this time before one is there, s."""
+"""A person slows down for narrow places this long before reaching them, s."""
 
 STOPPING = 0.4
-"""How hard one is ready to brake, m/s^2."""
+"""How hard a person is ready to brake, m/s^2."""
 
 GAP = 0.05
-"""Where one wants to stop before an obstacle, m."""
+"""How far before an obstacle a person wants to stop, m."""
 
 CREEP = 0.08
-"""Nobody goes slower than this past an obstacle, m/s."""
+"""The least speed past an obstacle, m/s."""
 
 
-def slowed(field: NDArray[np.float64], intention: Command, clearance: float) -> Command:
+def slowed(field: DistanceField, intention: Command, clearance: float) -> Command:
     """Return the intention at a speed that suits what the scan shows.
 
     Parameters
@@ -34,7 +32,7 @@ def slowed(field: NDArray[np.float64], intention: Command, clearance: float) -> 
     intention
         What the chair is expected to do, m/s and rad/s.
     clearance
-        Room below which one slows down, m.
+        Distance to obstacles below which the person slows down, m.
     """
     if intention.v <= 0.0:
         return intention

@@ -1,11 +1,11 @@
-"""Sharp corners on the way, as a person sees them coming."""
+"""Sharp corners on the way, as a person sees them ahead."""
 
 import math
 from typing import NamedTuple
 
 import numpy as np
 
-from participants.planning.route import Route
+from protocols.course.route import Route
 
 SHARP = math.radians(60)
 """From this turn on a corner is sharp (section IV: soft turns are those below 60 degrees), rad."""

@@ -22,9 +22,9 @@ class HumanDriver:
     Parameters
     ----------
     traits
-        Who it is.
+        How this person drives.
     room
-        The room, known from having been shown around.
+        The room as the person knows it after being shown around.
     """
 
     def __init__(self, traits: Traits, room: KnownRoom) -> None:

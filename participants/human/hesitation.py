@@ -4,14 +4,14 @@ from participants.human.corners import Corner
 from participants.human.turn_response import TurnResponse
 
 BELIEVED = 0.8
-"""A chair that is believed to obey this share of a turn, or more, makes nobody wonder."""
+"""A person does not hesitate who believes that the chair turns this share of what is asked."""
 
 FULL = 0.3
-"""At this share, that of the paper's limitation, or less, one wonders for the whole time."""
+"""At this share, that of the paper's limitation, or less, the person stops for the whole time."""
 
 
 class Hesitation:
-    """How long a person still wonders at a corner; each time for less than the time before.
+    """How long a person still hesitates at a corner; each time is shorter than the one before.
 
     The power law of practice again (Newell & Rosenbloom, 1981), counted in corners at which the
     chair did not obey.
@@ -22,7 +22,7 @@ class Hesitation:
         How long the person stops the first time, s.
     exponent
         The person's practice exponent.
-    authority
+    response
         What the person believes about the chair.
     """
 
@@ -32,12 +32,12 @@ class Hesitation:
         self._here: dict[Corner, int] = {}
 
     def start_lap(self) -> None:
-        """Come to the corners anew; what they taught stays."""
+        """Start a lap: every corner is ahead again; what was learnt stays."""
         self._here = {}
 
     def due(self, corner: Corner) -> float:
-        """Return the time one stops at a corner in all, as far as one can tell now, s."""
-        share = (BELIEVED - self._response.of(corner.turn)) / (BELIEVED - FULL)
+        """Return the whole time the person stops at a corner, as estimated now, s."""
+        share = (BELIEVED - self._response.share_for(corner.turn)) / (BELIEVED - FULL)
         if share <= 0.0:
             return 0.0
         if corner not in self._here:

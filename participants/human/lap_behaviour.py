@@ -1,4 +1,4 @@
-"""One lap of one person: what the hand does in each moment."""
+"""One lap of one person: how the person moves the stick in each step."""
 
 import math
 
@@ -21,10 +21,10 @@ from participants.traits import Traits
 from protocols.wheelchair import LASER_RANGE
 
 PATIENCE = 1.5
-"""Standing still against one's will for longer makes one try something else, s."""
+"""A person tries something else when the chair cannot move for longer than this, s."""
 
 EASING = 0.4
-"""Time constant with which one gives the stick up, and takes it again, s."""
+"""Time constant with which a person releases the stick, and takes it again, s."""
 
 REACHED = 0.1
 """A corner is reached this far before its start, m."""
@@ -36,17 +36,17 @@ class LapBehaviour:
     Parameters
     ----------
     traits
-        Who it is.
+        How this person drives.
     skilled
         How practised in this lap.
-    authority
-        What the person knows about the chair; goes on learning.
-    doubt
-        How long the person wonders about it.
+    response
+        What the person knows about how the chair turns; it is updated in every step.
+    hesitation
+        How long the person stops because the chair turns less than asked.
     room
         The room.
     rng
-        The hand's random numbers in this lap.
+        The stick's random numbers in this lap.
     """
 
     def __init__(
@@ -71,7 +71,7 @@ class LapBehaviour:
         self._arc: float | None = None
         self._stick = STILL
         self._wanted = STILL
-        self._held = 1.0
+        self._kept_share = 1.0
         self._hesitated: dict[Corner, float] = {}
 
     def act(self, sight: Sight) -> Command:
@@ -79,15 +79,15 @@ class LapBehaviour:
         passed = 0.0 if self._t is None else sight.t - self._t
         self._t = sight.t
         view = self._view.see(sight)
-        self._response.feel(self._stick, sight.velocity, passed, trusted=not sight.helped)
+        self._response.observe(self._stick, sight.velocity, passed, trusted=not sight.helped)
         situation = self._situation(view)
         intention = self._getting_free(sight, situation.error)
         if intention is None:
             intention = self._driving(view, situation, passed)
-        # Somebody else drives: one gives up a part of the deflection, and takes it back later.
+        # Under assistance a person gives up a part of the deflection, and takes it back afterwards.
         kept = 1.0 - self._traits.compliance * view.helped
-        self._held += (1.0 - math.exp(-passed / EASING)) * (kept - self._held)
-        eased = Command(intention.v * self._held, intention.w * self._held)
+        self._kept_share += (1.0 - math.exp(-passed / EASING)) * (kept - self._kept_share)
+        eased = Command(intention.v * self._kept_share, intention.w * self._kept_share)
         self._stick = self._lever.move(eased, passed)
         return self._stick
 
@@ -107,13 +107,13 @@ class LapBehaviour:
             return STILL
         intention = intend(self._traits, self._skill, self._response, self._room.route, situation)
         self._wanted = intention
-        w = intention.w * self._response.of(intention.w)
+        w = intention.w * self._response.share_for(intention.w)
         field = scan_field(view.ranges, view.bearings, view.laser, LASER_RANGE)
         careful = slowed(field, Command(intention.v, w), self._traits.clearance_m)
         return Command(careful.v, intention.w)
 
     def _hesitates(self, view: Sight, situation: Situation, passed: float) -> bool:
-        """Whether one stands at a sharp corner and looks, or wonders about the chair."""
+        """Whether the person stops at a sharp corner, to look or because the chair turns less."""
         corner = situation.corner
         if corner is None or situation.arc < corner.start - REACHED or view.helped:
             return False
@@ -124,8 +124,8 @@ class LapBehaviour:
         return True
 
     def _getting_free(self, sight: Sight, error: float) -> Command | None:
-        """Return the movement one is trying because nothing else worked, if any."""
+        """Return the movement the person tries to get free; None when the chair can move."""
         if sight.helped:
             self._recovery.helped()
             return None
-        return self._recovery.movement(sight, self._wanted, error, self._response.of)
+        return self._recovery.movement(sight, self._wanted, error, self._response.share_for)

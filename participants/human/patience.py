@@ -1,6 +1,6 @@
-"""When a person has had enough: of a lap that takes too long, or because something else is wrong.
+"""When a person ends the session: the lap takes too long, or the person feels unwell.
 
-Assumptions, with what there is to hold them against: none of the paper's twelve participants
+Assumptions. What is known: none of the paper's twelve participants
 left, which is compatible with anything up to about one session in four (26.5%, the upper end of
 the two-sided 95% interval of Clopper & Pearson, 1934).
 """
@@ -10,10 +10,10 @@ import numpy as np
 from participants.driver import WithdrewError
 
 THINKING_IT_OVER = 20.0
-"""Mean time between losing patience and saying so, s."""
+"""Mean time between losing patience and ending the session, s."""
 
 UNWELL_EVERY = 36_000.0
-"""Mean driving time until a person feels too unwell to go on, s: one in a hundred sessions of
+"""Mean driving time until a person feels too unwell to continue, s: one in a hundred sessions of
 six minutes."""
 
 
@@ -36,7 +36,7 @@ class Patience:
         self._unwell = UNWELL_EVERY * float(rng.exponential())
 
     def check(self, t: float) -> None:
-        """Go on, or leave.
+        """Continue, or leave.
 
         Parameters
         ----------

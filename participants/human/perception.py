@@ -1,4 +1,4 @@
-"""What a person knows now is what there was to see a reaction time ago."""
+"""A person acts on what there was to see one reaction time earlier."""
 
 from collections import deque
 
@@ -6,7 +6,7 @@ from participants.sight import Sight
 
 
 class DelayedView:
-    """Sights as they reach the hand.
+    """Sights with the delay of a person's reaction.
 
     Parameters
     ----------

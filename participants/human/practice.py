@@ -7,7 +7,7 @@ from participants.traits import Traits
 
 @dataclass(frozen=True, slots=True)
 class Skill:
-    """What inexperience does to a lap.
+    """How inexperience changes a lap.
 
     Attributes
     ----------

@@ -1,31 +1,33 @@
-"""The room as a person knows it: the way through, its sharp corners, and what stands where."""
+"""The room as a person knows it: the way through, its sharp corners, and where obstacles are."""
 
 import math
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
+from lad.compiled import compiled
 from participants.human.corners import sharp_corners
-from participants.planning.route import Route, plan_route
 from participants.planning.surroundings import known_raster
 from protocols.course.occupancy import Occupancy
+from protocols.course.route import Route, plan_route
 from protocols.course.schema import Course
 from protocols.pose import Pose
 from protocols.wheelchair import WIDTH
 
 STEP = 0.1
-"""How finely a straight line is looked along, m."""
+"""Distance between the points of a straight line that are checked, m."""
 
 
 class KnownRoom:
-    """What being shown around tells about a course.
+    """What a person knows about a course after being shown around.
 
     Parameters
     ----------
     route
         The way through.
     raster
-        What stands where.
+        Where obstacles are.
     """
 
     def __init__(self, route: Route, raster: Occupancy) -> None:
@@ -35,14 +37,25 @@ class KnownRoom:
 
     def straight(self, pose: Pose, x: float, y: float) -> bool:
         """Return whether the chair has room on the straight line to a point."""
-        n = math.ceil(math.hypot(x - pose.x, y - pose.y) / STEP) + 1
-        shares = np.linspace(0.0, 1.0, n)[1:]
-        rows = (pose.y + shares * (y - pose.y) - self.raster.origin[1]) / self.raster.cell
-        columns = (pose.x + shares * (x - pose.x) - self.raster.origin[0]) / self.raster.cell
-        height, width = self.raster.free.shape
-        i = np.clip(np.rint(rows).astype(np.int64), 0, height - 1)
-        j = np.clip(np.rint(columns).astype(np.int64), 0, width - 1)
-        return bool((self.raster.distance[i, j] > WIDTH / 2).all())
+        looks = math.ceil(math.hypot(x - pose.x, y - pose.y) / STEP)
+        raster = self.raster
+        line = (pose.x, pose.y, x - pose.x, y - pose.y)
+        return bool(_free(raster.distance, raster.origin, raster.cell, line, looks))
+
+
+@compiled
+def _free(distance: Any, origin: Any, cell: float, line: Any, looks: int) -> Any:
+    """Whether half the chair fits at evenly spaced points of a line, its start left out."""
+    x, y, dx, dy = line
+    height, width = distance.shape
+    for k in range(1, looks + 1):
+        share = 1.0 if k == looks else k * (1.0 / looks)
+        row = int(np.rint((y + share * dy - origin[1]) / cell))
+        column = int(np.rint((x + share * dx - origin[0]) / cell))
+        i, j = min(max(row, 0), height - 1), min(max(column, 0), width - 1)
+        if not distance[i, j] > WIDTH / 2:
+            return False
+    return True
 
 
 @lru_cache(maxsize=16)

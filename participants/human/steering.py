@@ -1,36 +1,35 @@
-"""Where a person would have the chair go now: direction, speed, and how hard to turn."""
+"""What a person wants the chair to do now: direction, speed, and how hard to turn."""
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from lad.command import Command
 from participants.human.corners import Corner
 from participants.human.practice import Skill
 from participants.human.room import KnownRoom
 from participants.human.turn_response import TurnResponse
-from participants.planning.route import Route
 from participants.traits import Traits
+from protocols.course.route import Route
 from protocols.pose import Pose
 from protocols.wheelchair import MAX_TURN_RATE
 
 NEAREST, FARTHEST = 0.8, 2.0
-"""Nobody aims nearer or farther ahead than this, m."""
+"""The least and the largest distance at which a person aims, m."""
 
 BRAKING = 0.4
 """How hard people brake for a corner, m/s^2."""
 
 ALIGNED, ASTRAY = 0.25, 0.75
-"""Direction errors up to which one goes on, and from which one only turns, rad."""
+"""Up to the first direction error a person keeps the speed; from the second on only turns, rad."""
 
 RESERVE = 0.9
-"""Share of the turn rate one has that one plans to use in a bend."""
+"""Share of the available turn rate that a person plans to use in a bend."""
 
 FIRM = 0.9
-"""Whoever asks for this share of full deflection pushes the stick to its end."""
+"""A person who wants this share of full deflection or more pushes the stick to its end."""
 
 
-@dataclass(frozen=True, slots=True)
-class Situation:
+class Situation(NamedTuple):
     """Where one is, and how the chair stands to the way.
 
     Attributes
@@ -42,7 +41,7 @@ class Situation:
     error
         Direction of the aim as seen from the chair, rad, left positive.
     corner
-        The sharp corner one is in or comes to next; None when there is none ahead.
+        The sharp corner the chair is in, or the next one; None when there is none ahead.
     """
 
     arc: float
@@ -52,18 +51,18 @@ class Situation:
 
 
 def aim(room: KnownRoom, pose: Pose, arc: float, distance: float, offset: float) -> float:
-    """Return the direction of the point one aims at, as seen from the chair, rad.
+    """Return the direction of the point a person aims at, as seen from the chair, rad.
 
     Parameters
     ----------
     room
-        The way, and what stands in the way of looking and going straight to a point on it.
+        The way, and the obstacles between the chair and a point on it.
     pose
         Where the chair is.
     arc
         Where on the way that is, m.
     distance
-        How far ahead one aims, m; nearer where one cannot go straight.
+        How far ahead the person aims, m; nearer where the straight line is blocked.
     offset
         How far to the left of the way, m.
     """
@@ -84,17 +83,17 @@ def aiming_distance(traits: Traits, speed: float) -> float:
 def intend(
     traits: Traits, skilled: Skill, response: TurnResponse, route: Route, now: Situation
 ) -> Command:
-    """Return what a person would have the chair do on a free way.
+    """Return what a person wants the chair to do on a free way.
 
-    The turn rate may lie beyond the chair's: a stick is pushed to its end.
+    The turn rate may be beyond the chair's: a stick is pushed to its end.
     """
-    believed = response.of(now.error)
+    believed = response.share_for(now.error)
     cruising = traits.preferred_speed_m_s * skilled.way
     turning = min(cruising, traits.corner_speed_m_s * skilled.corner * believed)
     v = min(cruising, _for_bends(response, route, now, turning), _for_corner(now, turning))
     straying = (abs(now.error) - ALIGNED) / (ASTRAY - ALIGNED)
     v = v + (min(v, turning) - v) * min(max(straying, 0.0), 1.0)
-    # Making up for a chair that turns less than asked, as far as this person does.
+    # A person who knows that the chair turns less than asked asks for more, each to some degree.
     push = believed**-traits.limit_push
     w = traits.steering_gain_per_s * now.error * push
     in_corner = now.corner is not None and now.arc >= now.corner.start
@@ -109,11 +108,11 @@ def _for_bends(response: TurnResponse, route: Route, now: Situation, slowest: fl
     bend = route.turn(now.arc, now.arc + ahead) / ahead
     if abs(bend) < 1e-6:
         return math.inf
-    return max(RESERVE * MAX_TURN_RATE * response.of(bend) / abs(bend), slowest)
+    return max(RESERVE * MAX_TURN_RATE * response.share_for(bend) / abs(bend), slowest)
 
 
 def _for_corner(now: Situation, turning: float) -> float:
-    """Return the speed from which one can still slow down for the corner ahead, m/s."""
+    """Return the speed from which the chair can still slow down for the corner ahead, m/s."""
     if now.corner is None or now.arc >= now.corner.start:
         return math.inf
     return math.sqrt(turning**2 + 2.0 * BRAKING * (now.corner.start - now.arc))

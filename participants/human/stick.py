@@ -11,17 +11,17 @@ DEAD_BAND = 0.02
 """Deflections below this share of the full one do nothing."""
 
 OVERSHOOT = 1.5
-"""How far beyond the stick's end a hand pushes at most, as a share of full deflection."""
+"""How far beyond the stick's end an intention counts, as a share of full deflection."""
 
 NOISE_TIME = 0.8
-"""Correlation time of the hand's noise, s: errors drift, they do not jump."""
+"""Correlation time of the noise, s: errors drift, they do not jump."""
 
 
 class Stick:
     """One person's hand on the stick.
 
     Noise is proportional to the deflection (Harris & Wolpert, 1998) and an Ornstein-Uhlenbeck
-    process in time; it enters before the hand's lag. A stick held at its end does not tremble.
+    process in time; it enters before the lag. A stick at its end does not tremble.
 
     Parameters
     ----------
@@ -46,25 +46,21 @@ class Stick:
         Parameters
         ----------
         intention
-            What the person would have the chair do, m/s and rad/s; may lie beyond the stick's end.
+            What the person wants the chair to do, m/s and rad/s; may be beyond the stick's end.
         passed
             Seconds since the last call.
         """
         keep = math.exp(-passed / NOISE_TIME)
         spread = math.sqrt(1.0 - keep * keep)
-        fresh = self._rng.normal(size=2)
-        self._errors = (
-            keep * self._errors[0] + spread * float(fresh[0]),
-            keep * self._errors[1] + spread * float(fresh[1]),
-        )
+        draw = self._rng.standard_normal
+        error_v = keep * self._errors[0] + spread * draw()
+        error_w = keep * self._errors[1] + spread * draw()
         follow = 1.0 - math.exp(-passed / self._lag)
-        wanted = (intention.v / MAX_SPEED, intention.w / MAX_TURN_RATE)
-        self._pushed = (
-            self._push(self._pushed[0], wanted[0], self._errors[0], follow),
-            self._push(self._pushed[1], wanted[1], self._errors[1], follow),
-        )
-        v, w = (_stick(pushed) for pushed in self._pushed)
-        return Command(v * MAX_SPEED, w * MAX_TURN_RATE)
+        v, w = self._pushed
+        v = self._push(v, intention.v / MAX_SPEED, error_v, follow)
+        w = self._push(w, intention.w / MAX_TURN_RATE, error_w, follow)
+        self._errors, self._pushed = (error_v, error_w), (v, w)
+        return Command(_stick(v) * MAX_SPEED, _stick(w) * MAX_TURN_RATE)
 
     def _push(self, now: float, wanted: float, error: float, follow: float) -> float:
         reached = min(max(wanted, -OVERSHOOT), OVERSHOOT) * (1.0 + self._noise * error)

@@ -3,20 +3,20 @@
 from lad.command import Command
 
 LEAST = 0.1
-"""Nobody comes to believe that the chair obeys less than this share."""
+"""The least share that a person can come to believe."""
 
 NOTICEABLE = 0.15
-"""Turn rates below this are too slow to tell whether the chair obeys, rad/s."""
+"""Turn rates below this are too slow to show whether the chair obeys, rad/s."""
 
 STEADY = 0.25
-"""A stick counts as held while it stays within this share of what it has been asking."""
+"""The stick is steady while its turn rate stays within this share of the remembered one."""
 
 SETTLING = 0.4
 """Time constant with which a person remembers what the stick has been asking, s."""
 
 
 class TurnResponse:
-    """The turn rate one gets as a share of the turn rate one asks for, to either side.
+    """The turn rate of the chair as a share of the turn rate asked for, to either side.
 
     A person who is slowed to one side notices within seconds, and keeps the experience: the
     human half of McRuer & Jex's (1967) crossover model, in which people adapt their gain to the
@@ -25,7 +25,7 @@ class TurnResponse:
     Parameters
     ----------
     rate
-        How fast one learns, 1/s.
+        How fast the person learns, 1/s.
     """
 
     def __init__(self, rate: float) -> None:
@@ -34,7 +34,7 @@ class TurnResponse:
         self._rate = rate
         self._asked = 0.0
 
-    def of(self, w: float) -> float:
+    def share_for(self, w: float) -> float:
         """Return the believed share for a turn rate of this sign, rad/s."""
         return self.right if w < 0 else self.left
 
@@ -42,24 +42,24 @@ class TurnResponse:
         """Forget what was asked last; keep what was learnt."""
         self._asked = 0.0
 
-    def feel(self, asked: Command, felt: Command, passed: float, trusted: bool) -> None:
-        """Learn from a moment.
+    def observe(self, asked: Command, felt: Command, passed: float, trusted: bool) -> None:
+        """Learn from one step.
 
         Parameters
         ----------
         asked
             What the stick asks for.
         felt
-            What the chair does, as felt.
+            The chair's velocities, as the person feels them.
         passed
             Seconds since the last call.
         trusted
             Whether it was the stick that moved the chair, and nothing else.
         """
         self._asked += min(passed / SETTLING, 1.0) * (asked.w - self._asked)
-        # One can only tell while the stick is held: a chair takes time to follow.
-        held = abs(asked.w - self._asked) < STEADY * abs(self._asked)
-        if not (trusted and held) or abs(self._asked) < NOTICEABLE:
+        # Only a steady stick shows the chair's response: the chair takes time to follow.
+        steady = abs(asked.w - self._asked) < STEADY * abs(self._asked)
+        if not (trusted and steady) or abs(self._asked) < NOTICEABLE:
             return
         share = min(max(felt.w / self._asked, LEAST), 1.0)
         learn = min(self._rate * passed, 1.0)

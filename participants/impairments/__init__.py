@@ -1,1 +1,1 @@
-"""What a participant's body does to its own intention; each wraps any driver, one file each."""
+"""How a body changes what a participant intends; each wraps any driver, one file each."""

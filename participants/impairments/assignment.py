@@ -13,7 +13,7 @@ def assigned(
     """Return the impairment a person has, if any.
 
     A person has at most one of those a protocol names, each with the probability of its share.
-    One draw from the person's own numbers decides, so nobody's depends on who else takes part.
+    One draw from the person's own numbers decides, so it does not depend on who else takes part.
 
     Parameters
     ----------
@@ -29,9 +29,9 @@ def assigned(
     >>> ["none" if person is None else person.use for person in people][:4]
     ['none', 'none', 'tremor', 'tremor']
     """
-    luck = rng.random()
+    draw = rng.random()
     for impairment in impairments:
-        if luck < impairment.share:
+        if draw < impairment.share:
             return impairment
-        luck -= impairment.share
+        draw -= impairment.share
     return None

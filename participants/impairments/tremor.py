@@ -1,4 +1,4 @@
-"""Tremor: a rhythmic movement of the hand on top of what it is meant to do."""
+"""Tremor: a rhythmic movement of the hand, added to the intended one."""
 
 import math
 from typing import Annotated
@@ -33,7 +33,7 @@ assumption; rhythmic means that it does not wander far."""
 
 
 class TremorOptions(Options):
-    """What a protocol may say about a tremor.
+    """What a protocol may set for a tremor.
 
     Attributes
     ----------
@@ -66,16 +66,16 @@ def amplitude(severity: float) -> float:
 
 
 class Tremor:
-    """A driver whose hand trembles, to and fro along one line of the stick's plane.
+    """A driver whose hand trembles along one line of the stick's plane.
 
-    A control step gets the mean of the stick over the step: what the chair gets of a tremor
-    faster than its controller. Above half the controller's rate it appears at a lower frequency,
-    as in any sampled stick without a filter before it.
+    A control step gets the mean of the stick over the step: what reaches the chair of a tremor
+    that is faster than its controller. Above half the controller's rate it appears at a lower
+    frequency, as in any sampled stick without a filter before it.
 
     Parameters
     ----------
     driver
-        Whose intentions they are.
+        The driver that intends the commands.
     severity
         0 to 1; see ``amplitude``.
     frequency
@@ -101,12 +101,12 @@ class Tremor:
         self._begin()
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:
-        """Get ready for a lap; the driver's own random numbers stay as they would be without."""
+        """Get ready for a lap; the driver's own random numbers are the same as without tremor."""
         self._driver.start_lap(lap, rng)
         self._begin()
 
     def act(self, sight: Sight) -> Command | None:
-        """Answer with the driver's command, trembling; the driver may have nothing new to say."""
+        """Answer with the driver's command, trembling; the driver may have no new one."""
         meant = self._driver.act(sight)
         self._meant = self._meant if meant is None else meant
         passed = 0.0 if self._t is None else sight.t - self._t

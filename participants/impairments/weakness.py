@@ -1,4 +1,4 @@
-"""Weakness: the stick is not pushed as far as meant."""
+"""Weakness: the stick is pushed less far than intended."""
 
 import numpy as np
 
@@ -9,20 +9,20 @@ from participants.setup import ImpairmentSetup
 from participants.sight import Sight
 
 LEAST = 0.1
-"""What is left of a deflection at severity 1; with nothing left, nobody could drive."""
+"""Share of a deflection that is left at severity 1; with 0 the chair could not be driven."""
 
 
 class Weakness:
-    """A driver whose hand reaches a share of the deflection it is meant to.
+    """A driver who reaches only a share of the intended deflection.
 
-    Both directions are scaled: a stick that a spring centres stands where the hand's force and
+    Both directions are scaled: a stick with a centring spring rests where the hand's force and
     the spring's are equal, so its deflection is proportional to the force. Scaled amplitude is
     how weakness of the hand is simulated by Schettino et al. (2025), Robotics 14(10):136, too.
 
     Parameters
     ----------
     driver
-        Whose intentions they are.
+        The driver that intends the commands.
     severity
         0 leaves commands as they are, 1 leaves ``LEAST`` of them.
     """
@@ -37,7 +37,7 @@ class Weakness:
         self._driver.start_lap(lap, rng)
 
     def act(self, sight: Sight) -> Command | None:
-        """Answer with what the hand manages of the driver's command."""
+        """Answer with the reduced command of the driver."""
         meant = self._driver.act(sight)
         return None if meant is None else Command(self._share * meant.v, self._share * meant.w)
 

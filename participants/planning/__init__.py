@@ -1,1 +1,1 @@
-"""From a course to a way through it, and from a scan to how far the chair can go."""
+"""The way through a course, and how far the chair can go according to a scan."""

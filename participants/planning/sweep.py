@@ -1,14 +1,23 @@
+# ruff: noqa: PLR0917  # compiled code takes arrays apart from objects
 """How far the chair can go along an arc before its outline could touch something."""
 
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lad.command import Command
 from lad.compiled import compiled
-from participants.planning.field import ASIDE, BEHIND, CELL, COLUMNS, FAR, ROWS
-from participants.planning.footprint import DISC_RADIUS, SWING, disc_centres
+from participants.planning.field import (
+    ASIDE,
+    BEHIND,
+    CELL,
+    COLUMNS,
+    FAR,
+    ROWS,
+    DistanceField,
+    distance_at,
+)
+from protocols.course.footprint import DISC_RADIUS, SWING, disc_centres
 
 CENTRES = disc_centres()
 
@@ -16,7 +25,7 @@ TOUCHING = 0.01
 """Less room than this counts as none, m."""
 
 NUDGE = 0.005
-"""The least the chair is moved between two looks, m: less than ``TOUCHING``."""
+"""The least distance between two checks, m: less than ``TOUCHING``."""
 
 
 class Sweep(NamedTuple):
@@ -34,12 +43,12 @@ class Sweep(NamedTuple):
     room: float
 
 
-def sweep(field: NDArray[np.float64], command: Command, horizon: float) -> Sweep:
+def sweep(field: DistanceField, command: Command, horizon: float) -> Sweep:
     """Follow a command through a distance field.
 
     Conservative advancement: where the nearest obstacle is d away, no point of the chair gets
-    there before it has moved by d, so the next look can wait that long. The answers never promise
-    more than is free; they fall short by at most the discs' overlap and the field's slack.
+    there before it has moved by d, so the next check can wait that long. The answers are never more
+    than is free; they are less by at most the discs' overlap and the field's slack.
 
     Parameters
     ----------
@@ -50,7 +59,7 @@ def sweep(field: NDArray[np.float64], command: Command, horizon: float) -> Sweep
     horizon
         How far to look, s.
     """
-    return Sweep(*advance(field, command.v, command.w, horizon))
+    return Sweep(*advance(*field, command.v, command.w, horizon))
 
 
 @compiled
@@ -63,16 +72,20 @@ def room_at(field: Any, x: float, y: float, turn: float) -> Any:
         py = y + sine * CENTRES[i, 0] + cosine * CENTRES[i, 1]
         column, row = (px + BEHIND) / CELL + 0.5, (py + ASIDE) / CELL + 0.5
         if 0 <= row < ROWS and 0 <= column < COLUMNS:
-            least = min(least, field[int(row), int(column)])
+            least = min(least, distance_at(field, int(row), int(column)))
     return least - DISC_RADIUS
 
 
 @compiled
-def advance(field: Any, v: float, w: float, horizon: float) -> Any:
-    """Return (seconds until a possible touch, least room on the way)."""
+def advance(known: Any, rows: Any, columns: Any, v: float, w: float, horizon: float) -> Any:
+    """Return (seconds until a possible touch, least room on the way).
+
+    The field comes as its three arrays: compiled code takes a tuple of them much more slowly.
+    """
+    field = (known, rows, columns)
     speed = abs(v) + abs(w) * SWING
     least = room_at(field, 0.0, 0.0, 0.0)
-    # A chair that already stands too close may still move as long as it gets no closer.
+    # A chair that is already too close may still move as long as it gets no closer.
     touching = min(TOUCHING, least)
     room = least
     t = 0.0

@@ -1,1 +1,1 @@
-"""Courses: what a course file may say, and the geometry that follows from it."""
+"""Courses: the fields of a course file, and the geometry that follows from it."""

@@ -1,6 +1,7 @@
-"""Where along the lap: arc length on the centreline, and the section one is in."""
+"""Where along the lap: arc length on the centreline, and the section there."""
 
 import math
+from bisect import bisect_right
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,7 +12,7 @@ from protocols.course.schema import Course, SectionKind
 from protocols.pose import Pose
 
 REACH = 1.5
-"""How far along the lap one may have got since the last projection, m."""
+"""How far along the lap the chair may have moved since the last projection, m."""
 
 
 class Stretch(NamedTuple):
@@ -56,6 +57,9 @@ class Centreline:
         steps = np.hypot(*np.diff(self.points, axis=0).T)
         self.arcs = np.concatenate([[0.0], np.cumsum(steps)])
         self.length = float(self.arcs[-1])
+        # Looked up one at a time, plain numbers are faster than arrays.
+        self._points = [(x, y) for x, y in self.points.tolist()]
+        self._arcs: list[float] = self.arcs.tolist()
         ends = [self.length if s.until is None else s.until for s in course.sections]
         starts = [0.0, *ends[:-1]]
         self.sections = tuple(
@@ -72,7 +76,7 @@ class Centreline:
             The point, m.
         near
             Arc length of the projection a moment before, m; the projection then stays within
-            ``REACH`` of it, so that a neighbouring leg cannot steal it. None: the nearest of all.
+            ``REACH`` of it, so that it never jumps to a neighbouring leg. None: the nearest of all.
 
         Returns
         -------
@@ -86,11 +90,11 @@ class Centreline:
     def point(self, arc: float) -> Pose:
         """Return the point at an arc length, clamped to the ends, and the direction there."""
         arc = min(max(arc, 0.0), self.length)
-        i = min(int(np.searchsorted(self.arcs, arc, side="right")) - 1, len(self.arcs) - 2)
-        (ax, ay), (bx, by) = self.points[i], self.points[i + 1]
-        share = (arc - self.arcs[i]) / (self.arcs[i + 1] - self.arcs[i])
-        heading = math.atan2(by - ay, bx - ax)
-        return Pose(float(ax + share * (bx - ax)), float(ay + share * (by - ay)), heading)
+        arcs = self._arcs
+        i = min(bisect_right(arcs, arc) - 1, len(arcs) - 2)
+        (ax, ay), (bx, by) = self._points[i], self._points[i + 1]
+        share = (arc - arcs[i]) / (arcs[i + 1] - arcs[i])
+        return Pose(ax + share * (bx - ax), ay + share * (by - ay), math.atan2(by - ay, bx - ax))
 
     def section(self, arc: float) -> Stretch:
         """Return the section an arc length lies in; a boundary belongs to the later one."""

@@ -1,20 +1,19 @@
-"""Refuse a course that nobody could drive, and say why in one line."""
+"""Refuse a course that cannot be driven, and give the reason in one line."""
 
 import itertools
 import math
 from collections.abc import Iterator
 
-import numpy as np
 import shapely
 import shapely.affinity
-from numpy.typing import NDArray
-from scipy import ndimage
 
 from protocols import wheelchair
-from protocols.course.gates import GateCounter, forward
+from protocols.course.gates import GateCounter
 from protocols.course.obstacles import FloorPlan, floor_plan, obstacle_boxes
-from protocols.course.occupancy import Occupancy, occupancy
-from protocols.course.schema import Course, Gate, Point
+from protocols.course.occupancy import bounds
+from protocols.course.route import plan_route
+from protocols.course.schema import Course
+from protocols.course.search import NoWayError
 from protocols.files.document import spoken
 from protocols.files.errors import InputError
 from protocols.files.fault import Fault
@@ -26,13 +25,20 @@ END_TOLERANCE = 0.3
 """How far from the last gate the centreline may end, m."""
 
 
+LARGEST = 20_000.0
+"""Area that a course may cover, m^2."""
+
+TURNED = math.radians(120)
+"""A centreline that turns by more than this from one piece to the next turns back."""
+
+
 def check_drivable(course: Course) -> None:
     """Check that a lap can be driven.
 
     Raises
     ------
     InputError
-        With what ``undrivable`` says.
+        With the reason that ``undrivable`` gives.
     """
     fault = undrivable(course)
     if fault is not None:
@@ -40,14 +46,20 @@ def check_drivable(course: Course) -> None:
 
 
 def undrivable(course: Course) -> Fault | None:
-    """Say why a lap cannot be driven, and where in the file; None when it can.
+    """Return why a lap cannot be driven, and where in the file; None when it can.
 
     The start overlaps an obstacle or is far from the centreline, a gate is closed, the centreline
-    runs through an obstacle or misses a gate, or no path of the chair's width leads through the
-    gates in their order.
+    runs through an obstacle, turns back or misses a gate, or there is no way on which the whole
+    chair could be driven through the gates in their order.
     """
-    plan = floor_plan(course)
-    checks = (_start(course), _closed(course, plan), _centreline(course, plan), _path(course))
+    floor = floor_plan(course)
+    checks = (
+        _extent(course),
+        _start(course),
+        _closed(course, floor),
+        _centreline(course, floor),
+        _way(course),
+    )
     return next(itertools.chain.from_iterable(checks), None)
 
 
@@ -57,6 +69,18 @@ def footprint(x: float, y: float, heading: float) -> shapely.Polygon:
     chair = shapely.box(-wheelchair.REAR, -side, wheelchair.FRONT, side)
     turned = shapely.affinity.rotate(chair, heading, origin=(0, 0), use_radians=True)
     return shapely.affinity.translate(turned, x, y)
+
+
+def _extent(course: Course) -> Iterator[Fault]:
+    """Refuse what no memory would hold as a raster."""
+    low_x, low_y, high_x, high_y = bounds(course)
+    width, height = high_x - low_x, high_y - low_y
+    if width * height > LARGEST:
+        message = (
+            f"start, gates and centreline with the floor around them cover {width:.0f} x "
+            f"{height:.0f} m; allowed: {LARGEST:,.0f} square metres"
+        )
+        yield Fault(("centreline",), message)
 
 
 def _start(course: Course) -> Iterator[Fault]:
@@ -71,10 +95,10 @@ def _start(course: Course) -> Iterator[Fault]:
         yield Fault(("start",), message)
 
 
-def _closed(course: Course, plan: FloorPlan) -> Iterator[Fault]:
+def _closed(course: Course, floor: FloorPlan) -> Iterator[Fault]:
     for i, gate in enumerate(course.gates):
         line = shapely.LineString([gate.left, gate.right])
-        opening = shapely.get_parts(line.difference(plan))
+        opening = shapely.get_parts(line.difference(floor))
         widest = max((float(shapely.length(piece)) for piece in opening), default=0.0)
         if widest < wheelchair.WIDTH:
             boxes = obstacle_boxes(course)
@@ -87,12 +111,18 @@ def _closed(course: Course, plan: FloorPlan) -> Iterator[Fault]:
             )
 
 
-def _centreline(course: Course, plan: FloorPlan) -> Iterator[Fault]:
+def _centreline(course: Course, floor: FloorPlan) -> Iterator[Fault]:
     line = shapely.LineString(course.centreline)
-    if line.intersects(plan):
-        x, y = shapely.get_coordinates(line.intersection(plan))[0]
+    if line.intersects(floor):
+        x, y = shapely.get_coordinates(line.intersection(floor))[0]
         message = f"runs through an obstacle at ({x:.2f}, {y:.2f})"
         yield Fault(("centreline",), message)
+    for i, (a, b, c) in enumerate(zip(*(course.centreline[k:] for k in range(3)), strict=False), 1):
+        turn = math.atan2(c[1] - b[1], c[0] - b[0]) - math.atan2(b[1] - a[1], b[0] - a[0])
+        if abs(math.remainder(turn, math.tau)) > TURNED:
+            degrees = math.degrees(abs(math.remainder(turn, math.tau)))
+            message = f"turns back by {degrees:.0f} degrees here; are two points swapped?"
+            yield Fault(("centreline", i), message)
     points = [(float(x), float(y)) for x, y in shapely.get_coordinates(line.segmentize(0.05))]
     (ax, ay), (bx, by) = points[-2:]
     # Half a millimetre on, so that a centreline that ends on the gate's line has passed it.
@@ -112,42 +142,12 @@ def _centreline(course: Course, plan: FloorPlan) -> Iterator[Fault]:
         yield Fault(("centreline",), message)
 
 
-def _path(course: Course) -> Iterator[Fault]:
-    """Look for a way of the chair's width from the start to each gate's rear side in turn."""
-    grid = occupancy(course)
-    wide = grid.free & (grid.distance >= wheelchair.WIDTH / 2)
-    here = [(course.start.x, course.start.y)]
-    previous = "the start"
-    for i, gate in enumerate(course.gates):
-        regions, _ = ndimage.label(wide & ~_drawn(grid, gate), structure=np.ones((3, 3)))
-        labels = np.asarray(regions, dtype=np.int64)
-        if not _found(grid, labels, here) & _found(grid, labels, _beside(gate, -2 * grid.cell)):
-            yield Fault(
-                ("gates", i),
-                f"{gate.name}: no way of the chair's width ({wheelchair.WIDTH:.2f} m) leads "
-                f"there from {previous}",
-            )
-        here = _beside(gate, 2 * grid.cell)
-        previous = f"gate {gate.name}"
+def _way(course: Course) -> Iterator[Fault]:
+    """Plan the way that the drivers are going to take; it leads the whole chair through the gates.
 
-
-def _beside(gate: Gate, ahead: float) -> list[Point]:
-    """Points along a gate, 1 cm or less apart, shifted through it (positive) or back."""
-    fx, fy = forward(gate)
-    n = math.ceil(math.dist(gate.left, gate.right) / 0.01) + 1
-    xs = np.linspace(gate.left[0], gate.right[0], n) + ahead * fx
-    ys = np.linspace(gate.left[1], gate.right[1], n) + ahead * fy
-    return list(zip(xs.tolist(), ys.tolist(), strict=True))
-
-
-def _drawn(grid: Occupancy, gate: Gate) -> NDArray[np.bool_]:
-    """Return the cells of a gate's line, thick enough that no diagonal step crosses it."""
-    cells = np.zeros_like(grid.free)
-    for ahead in (-grid.cell / 2, 0.0, grid.cell / 2):
-        for x, y in _beside(gate, ahead):
-            cells[grid.index(x, y)] = True
-    return cells
-
-
-def _found(grid: Occupancy, labels: NDArray[np.int64], points: list[Point]) -> set[int]:
-    return {int(labels[grid.index(x, y)]) for x, y in points} - {0}
+    The plan is kept: who is going to drive uses it.
+    """
+    try:
+        plan_route(course)
+    except NoWayError as error:
+        yield Fault(("gates", error.gate), error.reason)

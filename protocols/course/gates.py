@@ -61,7 +61,7 @@ class GateCounter:
     Attributes
     ----------
     passed
-        How many gates lie behind.
+        How many gates the chair has passed.
     """
 
     def __init__(self, course: Course) -> None:

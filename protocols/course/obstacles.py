@@ -1,4 +1,4 @@
-"""What stands in the way: walls and furniture as oriented boxes, and their outlines."""
+"""Obstacles: walls and furniture as oriented boxes, and their outlines."""
 
 import itertools
 import math

@@ -6,11 +6,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from protocols.course.obstacles import obstacle_boxes
+from protocols.course.obstacles import Box, obstacle_boxes
 from protocols.course.schema import Course
 
 MARGIN = 0.5
 """How far the raster reaches past the outermost obstacle, start, gate or centreline, m."""
+
+REACH = 10.0
+"""No farther than this past the start, the gates and the centreline, m: what stands beyond does
+not matter, and must not cost memory."""
+
+FAR = 8.0
+"""Distances are not told apart beyond this, m: nobody keeps away farther."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,8 +34,9 @@ class Occupancy:
         Shape (rows, columns), rows along y, columns along x: whether a cell's centre is outside
         every obstacle.
     distance
-        Same shape: distance from the cell's centre to the nearest obstacle, m; 0 inside one. An
-        obstacle thinner than a cell may cover no centre: go by this, not by ``free`` alone.
+        Same shape: distance from the cell's centre to the nearest obstacle, m; 0 inside one, at
+        most ``FAR``. An obstacle thinner than a cell may cover no centre: go by this, not by
+        ``free`` alone.
     """
 
     origin: tuple[float, float]
@@ -58,24 +66,39 @@ def occupancy(course: Course, cell: float = 0.05) -> Occupancy:
     cell
         Edge length of a cell, m.
     """
-    low_x, low_y, high_x, high_y = _bounds(course)
+    low_x, low_y, high_x, high_y = bounds(course)
     columns = math.ceil((high_x - low_x) / cell) + 1
     rows = math.ceil((high_y - low_y) / cell) + 1
-    xs, ys = np.meshgrid(low_x + cell * np.arange(columns), low_y + cell * np.arange(rows))
-    square = np.full(xs.shape, np.inf)
+    x = np.asarray(low_x + cell * np.arange(columns), dtype=np.float64)
+    y = np.asarray(low_y + cell * np.arange(rows), dtype=np.float64)
+    square = np.full((rows, columns), FAR**2)
     for box in obstacle_boxes(course):
-        cos, sin = math.cos(box.heading), math.sin(box.heading)
-        dx, dy = xs - box.cx, ys - box.cy
-        past = np.maximum(np.abs(dx * cos + dy * sin) - box.length / 2, 0.0)
-        beside = np.maximum(np.abs(dy * cos - dx * sin) - box.width / 2, 0.0)
-        np.minimum(square, past * past + beside * beside, out=square)
+        _lower(square, box, x, y)
     distance = np.sqrt(square)
     return Occupancy((low_x, low_y), cell, distance > 0.0, distance)
 
 
-def _bounds(course: Course) -> tuple[float, float, float, float]:
-    points = [p for gate in course.gates for p in (gate.left, gate.right)]
-    points += [*course.centreline, (course.start.x, course.start.y)]
-    points += [(x, y) for box in obstacle_boxes(course) for x, y in box.corners().tolist()]
-    low, high = np.min(points, axis=0) - MARGIN, np.max(points, axis=0) + MARGIN
+def _lower(
+    square: NDArray[np.float64], box: Box, x: NDArray[np.float64], y: NDArray[np.float64]
+) -> None:
+    """Lower the squared distances of the cells that a box can be the nearest obstacle of."""
+    corners = box.corners()
+    (left, bottom), (right, top) = corners.min(axis=0) - FAR, corners.max(axis=0) + FAR
+    across = slice(*np.searchsorted(x, [left, right]))
+    up = slice(*np.searchsorted(y, [bottom, top]))
+    cos, sin = math.cos(box.heading), math.sin(box.heading)
+    dx, dy = x[None, across] - box.cx, y[up, None] - box.cy
+    past = np.maximum(np.abs(dx * cos + dy * sin) - box.length / 2, 0.0)
+    beside = np.maximum(np.abs(dy * cos - dx * sin) - box.width / 2, 0.0)
+    np.minimum(square[up, across], past * past + beside * beside, out=square[up, across])
+
+
+def bounds(course: Course) -> tuple[float, float, float, float]:
+    """Return the raster's extent, m: lowest x and y, highest x and y."""
+    way = [p for gate in course.gates for p in (gate.left, gate.right)]
+    way += [*course.centreline, (course.start.x, course.start.y)]
+    corners = [box.corners() for box in obstacle_boxes(course)]
+    every = np.concatenate([np.array(way), *corners])
+    low = np.maximum(every.min(axis=0) - MARGIN, np.min(way, axis=0) - REACH)
+    high = np.minimum(every.max(axis=0) + MARGIN, np.max(way, axis=0) + REACH)
     return float(low[0]), float(low[1]), float(high[0]), float(high[1])

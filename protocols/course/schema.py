@@ -1,4 +1,4 @@
-"""A course as data: what a course file may say."""
+"""A course as data: the fields of a course file."""
 
 import itertools
 import math
@@ -8,7 +8,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from protocols.files.fault import Fault, InconsistentError, Location
-from protocols.files.file_model import FileModel, Name
+from protocols.files.file_model import FileModel, FormatVersion, Name
 
 Metres = Annotated[float, Field(ge=-1000, le=1000)]
 Point = tuple[Metres, Metres]
@@ -70,16 +70,16 @@ class Course(FileModel):
     The centreline is for metrics and for drivers with a map; it ends at the last gate.
     """
 
-    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    schema_version: Annotated[Literal[1], FormatVersion, Field(alias="schema")] = 1
     name: Name
-    title: str
+    title: Annotated[str, Field(max_length=5000)]
     description: str = ""
-    walls: Annotated[tuple[Wall, ...], Field(min_length=1)]
-    furniture: tuple[Furniture, ...] = ()
+    walls: Annotated[tuple[Wall, ...], Field(min_length=1, max_length=1000)]
+    furniture: Annotated[tuple[Furniture, ...], Field(max_length=2000)] = ()
     start: Start
-    gates: Annotated[tuple[Gate, ...], Field(min_length=1)]
+    gates: Annotated[tuple[Gate, ...], Field(min_length=1, max_length=100)]
     centreline: Annotated[tuple[Point, ...], Field(min_length=2, max_length=10_000)]
-    sections: Annotated[tuple[Section, ...], Field(min_length=1)]
+    sections: Annotated[tuple[Section, ...], Field(min_length=1, max_length=500)]
 
     @model_validator(mode="after")
     def _parts_agree(self) -> Self:
@@ -93,7 +93,7 @@ class Course(FileModel):
         for i, wall in enumerate(self.walls):
             yield from _repeated_points(wall.points, ("walls", i, "points"))
             if wall.closed and math.dist(wall.points[0], wall.points[-1]) < MIN_STEP:
-                message = "a closed wall returns by itself; leave out its last point"
+                message = "a closed wall ends at its first point; leave out its last point"
                 yield Fault(("walls", i, "points", len(wall.points) - 1), message)
         for i, gate in enumerate(self.gates):
             if math.dist(gate.left, gate.right) < MIN_STEP:
@@ -101,7 +101,7 @@ class Course(FileModel):
         yield from _repeated_points(self.centreline, ("centreline",))
 
     def _repeated_names(self) -> Iterator[Fault]:
-        """Find gates or sections that cannot be told apart in the record."""
+        """Find gates or sections with the same name in the record."""
         for field, parts in (("gates", self.gates), ("sections", self.sections)):
             names = [part.name for part in parts]
             for i, name in enumerate(names):

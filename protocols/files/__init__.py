@@ -1,1 +1,1 @@
-"""Files that people write: read with their lines, checked, and faults said in one line each."""
+"""Files that people write: read with their lines, checked, and each fault reported in one line."""

@@ -1,23 +1,18 @@
-"""A YAML file as plain data that still knows its lines."""
+"""A YAML file as plain data with the line of every value."""
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from ruamel.yaml import YAML
-from ruamel.yaml.error import MarkedYAMLError, YAMLError
-from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
-from ruamel.yaml.reader import ReaderError
-
 from protocols.files.errors import InputError
 from protocols.files.fault import Fault, Location
+from protocols.files.nodes import MAX_DEPTH, MAX_VALUES, Node, compose, too_deep
+from protocols.files.scalars import MERGE, TAG, ScalarError, scalar_value, short
 
 MAX_BYTES = 2_000_000
-MAX_VALUES = 200_000
-_TAG = "tag:yaml.org,2002:"
-_NUMBERS = (f"{_TAG}int", f"{_TAG}float")
-_TEXTS = (f"{_TAG}str", f"{_TAG}timestamp", f"{_TAG}value")
-_CONSTANTS = {"true": True, "false": False, "yes": True, "no": False, "on": True, "off": False}
+_NO_TEXT = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""A character that YAML does not allow."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +55,9 @@ def spoken(where: Location) -> str:
     >>> spoken(("laps", 2, "condition"))
     'laps[2].condition'
     """
-    text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in where)
+    text = "".join(
+        f"[{part}]" if isinstance(part, int) else f".{short(part, 80)}" for part in where
+    )
     return text.removeprefix(".")
 
 
@@ -68,52 +65,48 @@ def _colon(where: Location) -> str:
     return f"{spoken(where)}: " if where else ""
 
 
-def parse(content: bytes, source: str) -> Document:
+def parse(content: bytes, source: str, size: int | None = None) -> Document:
     """Read YAML 1.2.
+
+    Parameters
+    ----------
+    content
+        The file's, or the beginning of one that is too large.
+    source
+        The file as messages name it.
+    size
+        The file's size in bytes; None when ``content`` is all of it.
 
     Raises
     ------
     InputError
         When the content is not one YAML document of plain values: syntax, encoding, tags,
-        repeated keys, merge keys, anchors that contain themselves or unfold without end.
+        repeated keys, merge keys, anchors that contain themselves or unfold without end; or is
+        larger, longer or deeper than a file may be.
     """
-    text = _decode(content, source)
-    root = _compose(text, source)
+    text = _decode(content, source, size if size is not None else len(content))
+    root, version = compose(text, source)
     if root is None:
         raise InputError(f"{source}:1: the file is empty")
-    unfolding = _Unfolding(source)
+    unfolding = _Unfolding(source, version)
     data = unfolding.value(root, ())
     return Document(source, data, unfolding.lines)
 
 
-def _decode(content: bytes, source: str) -> str:
-    if len(content) > MAX_BYTES:
-        raise InputError(f"{source}: {len(content)} bytes; a file may have {MAX_BYTES}")
+def _decode(content: bytes, source: str, size: int) -> str:
+    if size > MAX_BYTES:
+        raise InputError(f"{source}: {size} bytes; a file may have {MAX_BYTES}")
     try:
-        return content.decode("utf-8-sig")
+        text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
         message = f"{source}:{line}: not UTF-8 text (byte 0x{content[error.start]:02x})"
         raise InputError(message) from None
-
-
-def _compose(text: str, source: str) -> Node | None:
-    try:
-        node: Node | None = YAML(typ="safe", pure=True).compose(text)
-    except ReaderError as error:
-        line = text.count("\n", 0, error.position) + 1
-        message = f"{source}:{line}: character U+{ord(text[error.position]):04X} is not allowed"
-        raise InputError(message) from None
-    except MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
-        line = min(mark.line, text.count("\n", 0, len(text) - 1)) + 1 if mark else 1
-        what = f"{error.problem} {error.context or ''}"
-        raise InputError(f"{source}:{line}: not YAML: {what}") from None
-    except RecursionError:
-        raise InputError(f"{source}: nested too deeply to be read") from None
-    except (YAMLError, ValueError) as error:
-        raise InputError(f"{source}: not YAML: {error}") from None
-    return node
+    odd = _NO_TEXT.search(text)
+    if odd is not None:
+        line = text.count("\n", 0, odd.start()) + 1
+        raise InputError(f"{source}:{line}: character U+{ord(odd[0]):04X} is not allowed")
+    return text
 
 
 @dataclass
@@ -121,79 +114,56 @@ class _Unfolding:
     """Turn nodes into plain values, noting lines and refusing what is not plain."""
 
     source: str
+    version: tuple[int, int] | None
     lines: dict[Location, int] = field(default_factory=dict)
     count: int = 0
     open: set[int] = field(default_factory=set)
 
     def value(self, node: Node, where: Location) -> Any:
-        self.lines.setdefault(where, node.start_mark.line + 1)
+        self.lines.setdefault(where, node.line)
         self.count += 1
         if self.count > MAX_VALUES:
             raise self.fault(node, where, f"unfolds to more than {MAX_VALUES} values")
-        if isinstance(node, ScalarNode):
+        if node.text is not None:
             return self.scalar(node, where)
         if id(node) in self.open:
             raise self.fault(node, where, "an anchor that contains itself is not allowed")
+        if len(where) > MAX_DEPTH:
+            raise too_deep(self.source, node.line)
         self.open.add(id(node))
-        if isinstance(node, SequenceNode) and node.tag == f"{_TAG}seq":
-            result: Any = [self.value(item, (*where, i)) for i, item in enumerate(node.value)]
-        elif isinstance(node, MappingNode) and node.tag == f"{_TAG}map":
+        if node.tag == f"{TAG}seq":
+            result: Any = [self.value(item, (*where, i)) for i, item in enumerate(node.items)]
+        elif node.tag == f"{TAG}map":
             result = self.mapping(node, where)
         else:
-            raise self.fault(node, where, f"the tag {_short(node.tag)} is not allowed")
+            raise self.fault(node, where, f"the tag {short(node.tag)} is not allowed")
         self.open.remove(id(node))
         return result
 
-    def mapping(self, node: MappingNode, where: Location) -> dict[str, Any]:
+    def mapping(self, node: Node, where: Location) -> dict[str, Any]:
         result: dict[str, Any] = {}
-        for key, item in node.value:
+        for key, item in zip(node.items[::2], node.items[1::2], strict=True):
             name = self.key(key, where)
             here = (*where, name)
             if name in result:
                 first = self.lines[here]
                 raise self.fault(key, here, f"given twice; it is in line {first} already")
-            self.lines[here] = key.start_mark.line + 1
+            self.lines[here] = key.line
             result[name] = self.value(item, here)
         return result
 
     def key(self, key: Node, where: Location) -> str:
-        if not isinstance(key, ScalarNode):
+        if key.text is None:
             raise self.fault(key, where, "a field's name must be plain text")
-        if key.tag == f"{_TAG}merge":
+        if key.tag == MERGE:
             raise self.fault(key, where, "'<<' is not supported; write the fields out")
-        return self.text(key, where)
+        return key.text
 
-    def scalar(self, node: ScalarNode, where: Location) -> Any:
-        if node.tag == f"{_TAG}null":
-            return None
-        if node.tag == f"{_TAG}bool" and node.value.lower() in _CONSTANTS:
-            return _CONSTANTS[node.value.lower()]
-        if node.tag in _TEXTS:
-            return self.text(node, where)
-        if node.tag in _NUMBERS:
-            return self.number(node, where)
-        raise self.fault(node, where, f"the tag {_short(node.tag)} is not allowed")
-
-    def number(self, node: ScalarNode, where: Location) -> float:
-        constructor = YAML(typ="safe", pure=True).constructor
-        read = constructor.construct_yaml_int if node.tag == _NUMBERS[0] else (
-            constructor.construct_yaml_float)  # fmt: skip
+    def scalar(self, node: Node, where: Location) -> Any:
         try:
-            number: float = read(node)
-        except ValueError:
-            raise self.fault(node, where, f"{_short(node.value)} is not a number") from None
-        return number
-
-    def text(self, node: ScalarNode, where: Location) -> str:
-        text: str = node.value
-        if any("\ud800" <= character <= "\udfff" for character in text):
-            raise self.fault(node, where, "half a surrogate pair is not text")
-        return text
+            return scalar_value(node.tag, node.text or "", self.version)
+        except ScalarError as error:
+            raise self.fault(node, where, str(error)) from None
 
     def fault(self, node: Node, where: Location, message: str) -> InputError:
-        return InputError(f"{self.source}:{node.start_mark.line + 1}: {_colon(where)}{message}")
-
-
-def _short(text: str | None) -> str:
-    text = str(text)
-    return text if len(text) <= 60 else f"{text[:57]}..."
+        return InputError(f"{self.source}:{node.line}: {_colon(where)}{message}")

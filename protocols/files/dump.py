@@ -38,16 +38,16 @@ def plain_yaml(data: Any) -> str:
     Raises
     ------
     TypeError
-        When a value is none of these.
+        When a value is of another type.
     """
     yaml = YAML(typ="rt", pure=True)
     yaml.Representer = _Representer
     yaml.width = _WIDTH
     yaml.allow_unicode = True
     yaml.indent(mapping=2, sequence=4, offset=2)
-    stream = io.StringIO()
-    yaml.dump(_styled(data), stream)
-    return stream.getvalue()
+    text = io.StringIO()
+    yaml.dump(_styled(data), text)
+    return text.getvalue()
 
 
 def _styled(data: Any) -> Any:

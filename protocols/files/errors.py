@@ -1,16 +1,19 @@
-"""The one exception that means: it is your input, and here is what to change."""
+"""The one exception for faulty input; its message tells what to change."""
+
+LONGEST = 1200
+"""Characters of a fault; the middle of a longer one is left out."""
 
 
 class InputError(Exception):
-    """Something a person gave cannot be used.
+    """Input that cannot be used.
 
-    The message is one line that says where, what and what is allowed. The command line prints it
+    The message is one line: where, what, and what is allowed. The command line prints it
     and exits with 2; nothing is overwritten or left half-written.
 
     Parameters
     ----------
     faults
-        One line per fault, the first to mend first; at least one.
+        One line per fault, at least one; the one to correct first comes first.
 
     Examples
     --------
@@ -21,7 +24,7 @@ class InputError(Exception):
     def __init__(self, *faults: str) -> None:
         if not faults:
             raise TypeError("an InputError needs at least one fault")
-        super().__init__(*(" ".join(fault.split()) for fault in faults))
+        super().__init__(*(_one_line(fault) for fault in faults))
 
     @property
     def faults(self) -> tuple[str, ...]:
@@ -31,3 +34,11 @@ class InputError(Exception):
     def __str__(self) -> str:
         first, *others = self.faults
         return first if not others else f"{first} (and {len(others)} more)"
+
+
+def _one_line(fault: str) -> str:
+    """Return a fault as one line that fits a screen; its end says what is allowed."""
+    line = " ".join(fault.split())
+    if len(line) <= LONGEST:
+        return line
+    return f"{line[: LONGEST * 2 // 3]} ... {line[-LONGEST // 3 :]}"

@@ -14,7 +14,7 @@ class Fault(NamedTuple):
 
 
 class InconsistentError(ValueError):
-    """Parts of a file contradict one another; ``faults`` says where."""
+    """Parts of a file contradict one another; ``faults`` has the places."""
 
     def __init__(self, faults: tuple[Fault, ...]) -> None:
         super().__init__("; ".join(fault.message for fault in faults))

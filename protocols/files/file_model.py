@@ -3,12 +3,26 @@
 import re
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9 _.-]*$", max_length=80)]
 """A short name: letters, digits, space, ``_``, ``.``, ``-``; it begins with a letter or digit."""
 
-_FACTORY = r"^[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*$"
+MAX_PART_NAME = 200
+"""Characters that the name of a part may have."""
+
+_PART = r"[A-Za-z_][A-Za-z0-9_.-]*(:[A-Za-z_][A-Za-z0-9_]*)?"
+
+
+def _no_truth_value(value: Any) -> Any:
+    """Refuse true and 1.0, which Python holds to be equal to 1."""
+    if type(value) is int or not isinstance(value, int | float):
+        return value
+    raise ValueError(f"must be a whole number; given {str(value).lower()}")
+
+
+FormatVersion = BeforeValidator(_no_truth_value)
+"""Of a field that says the version of a file's format: a whole number and nothing else."""
 
 
 class FileModel(BaseModel):
@@ -19,26 +33,28 @@ class FileModel(BaseModel):
     )
 
 
-def shipped_or_factory(*shipped: str) -> Any:
-    """Return the type of a field that names a shipped component or somebody else's factory.
+def part_name(*shipped: str) -> Any:
+    """Return the type of a field that names a part of a study.
 
     Parameters
     ----------
     shipped
-        Names of the components that come with the package.
+        Names of the parts that come with the package.
 
     Returns
     -------
     Any
-        Text that is one of ``shipped`` or of the form ``package.module:factory``. Whether the
-        factory can be imported is found out where it is called.
+        Text that is one of ``shipped``, the name of an installed package's part, or of the form
+        ``module:factory``. Whether there is such a part is found out where the file's folder is
+        known (``protocols.parts``): a recorded study is read where its parts are not installed.
     """
-    allowed = f"{', '.join(shipped)}, or package.module:factory"
+    hint = f"{', '.join(shipped)}, another name of letters, digits, _, ., -, or module:factory"
 
     def check(value: str) -> str:
-        if value in shipped or re.match(_FACTORY, value):
+        if len(value) <= MAX_PART_NAME and re.fullmatch(_PART, value):
             return value
-        raise ValueError(f"'{value}' is not known here; allowed: {allowed}")
+        given = repr(value) if len(value) <= MAX_PART_NAME else f"text of {len(value)} characters"
+        raise ValueError(f"{given} names no part; allowed: {hint}")
 
-    schema = {"anyOf": [{"enum": list(shipped)}, {"type": "string", "pattern": _FACTORY}]}
+    schema = {"anyOf": [{"enum": list(shipped)}, {"type": "string", "pattern": f"^{_PART}$"}]}
     return Annotated[str, AfterValidator(check), WithJsonSchema({**schema, "type": "string"})]

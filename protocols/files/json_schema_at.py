@@ -17,7 +17,7 @@ def _schema_of(model: type[BaseModel]) -> Schema:
 
 
 def schema_at(model: type[BaseModel], where: Location) -> Schema:
-    """Return the JSON Schema of a place in the file; empty where there is none."""
+    """Return the JSON Schema of a place in the file; empty where it has none."""
     root = _schema_of(model)
     schema = root
     for part in where:

@@ -1,13 +1,16 @@
-"""Say what is allowed, and guess what was meant."""
+"""List what is allowed, and guess what was meant."""
 
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
+
+LONGEST_GUESS = 200
+"""Characters up to which a misspelt word is guessed at."""
 
 
 def allowed(given: str, names: Iterable[str], kinds: Iterable[str] = ()) -> str:
     """Return the end of a message: the allowed names and, where one is near, a guess.
 
-    ``kinds`` of things that are allowed besides, such as a file, stand first and are no guess.
+    Other ``kinds`` that are allowed, such as a file, come first and are never a guess.
 
     Examples
     --------
@@ -16,12 +19,12 @@ def allowed(given: str, names: Iterable[str], kinds: Iterable[str] = ()) -> str:
     """
     names = tuple(names)
     listed = f"allowed: {', '.join((*kinds, *names)) or 'nothing'}"
-    near = get_close_matches(given, names, n=1)
+    near = get_close_matches(given, names, n=1) if len(given) <= LONGEST_GUESS else []
     return f"{listed} (did you mean '{near[0]}'?)" if near else listed
 
 
 def listed(names: Sequence[str]) -> str:
-    """Return the end of a message: what there is, shortened where it is much.
+    """Return the end of a message: the names there are; a long list is shortened.
 
     Examples
     --------

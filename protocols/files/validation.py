@@ -1,4 +1,4 @@
-"""Check a file's data against a model, and say what is wrong in the words of the file."""
+"""Check a file's data against a model, and name each fault with the words of the file."""
 
 import json
 from collections.abc import Iterable
@@ -12,6 +12,9 @@ from protocols.files.fault import Fault, InconsistentError, Location
 from protocols.files.wording import worded
 
 Model = TypeVar("Model", bound=BaseModel)
+
+MOST_FAULTS = 200
+"""Faults that are looked at: one is shown, and how many there are besides."""
 
 
 def validate(document: Document, model: type[Model]) -> Model:
@@ -28,13 +31,14 @@ def validate(document: Document, model: type[Model]) -> Model:
     try:
         return model.model_validate_json(json.dumps(document.data), strict=True)
     except ValidationError as error:
-        items = [item for item in error.errors() if not _misspelt(item, error.errors())]
+        found = error.errors(include_url=False)[:MOST_FAULTS]
+        items = [item for item in found if not _misspelt(item, found)]
         faults = [f for item in items for f in _faults(item, document.data, model)]
         raise document.error(_worth_telling(faults)) from None
 
 
 def _misspelt(item: Any, items: Iterable[Any]) -> bool:
-    """Tell whether a missing field is there under a similar name; one fault is enough then."""
+    """Return whether a missing field is there under a similar name; one fault is enough then."""
     parent, name = item["loc"][:-1], item["loc"][-1:]
     return item["type"] == "missing" and any(
         get_close_matches(str(other["loc"][-1]), [str(*name)])

@@ -1,4 +1,4 @@
-"""What pydantic found, in the words of the person who wrote the file."""
+"""What pydantic found, in the terms of the file."""
 
 from collections.abc import Callable, Mapping
 from typing import Any

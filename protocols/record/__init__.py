@@ -1,1 +1,1 @@
-"""What a study leaves behind: one schema, its writer, its reader, its codebook."""
+"""What a study records: one schema, its writer, its reader, its codebook."""

@@ -1,4 +1,4 @@
-"""Files that are there whole or not at all, whatever kills the process."""
+"""Files that appear whole or not at all, even when the process is killed."""
 
 import os
 import shutil
@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 PARTIAL = ".partial-"
-"""How names of unfinished files and folders begin; nobody reads them."""
+"""How names of unfinished files and folders begin; no reader opens them."""
 
 
 def write_whole(path: Path, content: bytes) -> None:
@@ -35,15 +35,15 @@ def partial_beside(path: Path) -> Path:
 
 def write_through(path: Path, content: bytes) -> None:
     """Write a file and wait until it is on the disk."""
-    with naming(path), path.open("wb") as stream:
-        stream.write(content)
-        stream.flush()
-        os.fsync(stream.fileno())
+    with naming(path), path.open("wb") as opened:
+        opened.write(content)
+        opened.flush()
+        os.fsync(opened.fileno())
 
 
 @contextmanager
 def naming(path: Path) -> Iterator[None]:
-    """Have errors of the system name the file, also those that come while it is being written."""
+    """Add the file's name to errors of the system, also to those while it is being written."""
     try:
         yield
     except OSError as error:
@@ -52,7 +52,7 @@ def naming(path: Path) -> Iterator[None]:
 
 
 def sync_folder(folder: Path) -> None:
-    """Wait until a folder's list of names is on the disk, where the system can say so."""
+    """Wait until a folder's list of names is on the disk, where the system can confirm it."""
     if os.name != "posix":
         return
     descriptor = os.open(folder, os.O_RDONLY)
@@ -63,7 +63,7 @@ def sync_folder(folder: Path) -> None:
 
 
 def is_partial(path: Path) -> bool:
-    """Tell whether a file or folder is unfinished."""
+    """Return whether a file or folder is unfinished."""
     return path.name.startswith(PARTIAL)
 
 

@@ -1,6 +1,6 @@
 """Verify a study directory: what is wrong in it, and what to do about it."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pyarrow as pa
@@ -9,13 +9,14 @@ from protocols.files.errors import InputError
 from protocols.order import group_of, in_words, laps_of
 from protocols.record.codebook import CODEBOOK_FILE, codebook_json
 from protocols.record.column import SCHEMA_VERSIONS, arrow_schema, brought_up_to_date
+from protocols.record.elsewhere.faults import Tell, foreign_faults
 from protocols.record.header import STUDY_FILE, StudyHeader, read_header
 from protocols.record.identity import study_digest
 from protocols.record.journal import journal_path
 from protocols.record.logs import failures
 from protocols.record.merge import STUDY_TABLES, session_rows
 from protocols.record.parquet import parquet_shape, read_parquet
-from protocols.record.reader import off_scale, open_study
+from protocols.record.reader import open_study
 from protocols.record.resume import resume_command
 from protocols.record.rows import (
     ENDS_SESSION,
@@ -36,16 +37,13 @@ from protocols.record.tables import LAP_COLUMNS, PARTICIPANT_COLUMNS, SURVEY_COL
 from protocols.registration import registration_faults
 from protocols.resolved import ResolvedStudy
 
-Tell = Callable[[str], None]
-"""Called with what is being looked at now."""
-
 
 def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
     """Return what is wrong with a study directory, one line each; empty when all is well.
 
     Every session's files are compared with their checksums and with one another, the tables with
-    the sessions, the codebook with the schema, and the sessions with the plan. Of a study that was
-    recorded elsewhere, which has no checksums, every table is read.
+    the sessions, the codebook with the schema, and the sessions with the protocol. Of a study
+    that was recorded elsewhere, which has no checksums, every table is read.
 
     Raises
     ------
@@ -54,7 +52,7 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
     """
     header = read_header(folder)
     if header.origin == "elsewhere":
-        return tuple(_foreign_faults(folder))
+        return tuple(foreign_faults(folder, tell))
     sessions = session_folders(folder)
     again = f"`{resume_command(folder, header)}`"
     faults = [
@@ -71,7 +69,7 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
         faults += [f"{fault}; {_mend(header, session, again)}" for fault in found]
         if not found:
             sound.append(session.name)
-    # A damaged session cannot be compared with the tables: its own faults say enough.
+    # A damaged session cannot be compared with the tables: its own faults are enough.
     if len(sound) == len(sessions):
         faults += _table_faults(folder, sound, again)
     return tuple(faults)
@@ -80,27 +78,16 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
 def _mend(header: StudyHeader, session: Path, again: str) -> str:
     """Return what to do about a damaged session: only a simulated one may be deleted."""
     if header.origin == "simulated":
-        return f"remove {session}, then {again} makes it anew"
+        return f"remove {session}, then {again} rebuilds it"
     journal = journal_path(session.parents[1], session.name)
     if journal.is_file():
-        return f"`lad-study recover {session.parents[1]}` makes it again from {journal}"
-    return "it is a living person's and has no journal: keep it, and mend it by hand"
+        return f"`lad-study recover {session.parents[1]}` rebuilds it from {journal}"
+    return "it is a living person's and has no journal: keep it, and repair it by hand"
 
 
-def _foreign_faults(folder: Path) -> Iterator[str]:
-    """Read everything there is of a study that was recorded elsewhere."""
-    try:
-        study = open_study(folder)
-        laps = study.laps
-        for participant, lap in zip(
-            laps["participant"].to_pylist(), laps["lap"].to_pylist(), strict=True
-        ):
-            if study.has_steps(participant, lap):
-                study.steps(participant, lap)
-        for _, fault in off_scale(study):
-            yield fault
-    except InputError as error:
-        yield str(error)
+def check_remarks(folder: Path) -> tuple[str, ...]:
+    """Return what is read with a repair in a study directory without faults, one line each."""
+    return open_study(folder).remarks
 
 
 def _header_faults(folder: Path, header: StudyHeader, again: str) -> Iterator[str]:
@@ -111,7 +98,7 @@ def _header_faults(folder: Path, header: StudyHeader, again: str) -> Iterator[st
         )
     path = folder / CODEBOOK_FILE
     if not path.is_file() or path.read_bytes() != codebook_json().encode():
-        yield f"{path}: missing, or not this version's; {again} makes it anew"
+        yield f"{path}: missing, or not this version's; {again} rebuilds it"
 
 
 def _missing_sessions(
@@ -147,7 +134,7 @@ def _sessions_beyond(
 
 
 def _session_faults(session: Path, header: StudyHeader) -> Iterator[str]:
-    """Check the files of one session: bytes first, then what they say."""
+    """Check the files of one session: first their bytes, then their contents."""
     damaged = list(session_faults(session))
     yield from damaged
     if damaged:
@@ -172,7 +159,7 @@ def _content_faults(session: Path, study: ResolvedStudy, seed: int) -> Iterator[
             yield f"{session}: rows of {strangers.pop()} in the session of {session.name}"
     driven = participant["laps_driven"].to_pylist()
     if driven != [laps.num_rows]:
-        yield f"{session / LAPS_FILE}: {laps.num_rows} laps; the participant's row says {driven}"
+        yield f"{session / LAPS_FILE}: {laps.num_rows} laps; the participant's row has {driven}"
     yield from _allocation_faults(session, participant, study, seed)
     yield from _lap_faults(session, laps)
     yield from _survey_faults(session, laps, surveys, study, seed)
@@ -208,7 +195,7 @@ def _lap_faults(session: Path, laps: pa.Table) -> Iterator[str]:
         if not any(schema.equals(arrow_schema(STEP_COLUMNS, v)) for v in SCHEMA_VERSIONS):
             yield f"{path}: its columns are not those of the record"
         if recorded != steps:
-            yield f"{path}: {recorded} steps; the lap's row says {steps}"
+            yield f"{path}: {recorded} steps; the lap's row has {steps}"
 
 
 def _survey_faults(
@@ -242,7 +229,7 @@ def _table_faults(folder: Path, participants: list[str], again: str) -> Iterator
             there = brought_up_to_date(read_parquet(path), columns)
             same = there is not None and there.equals(wanted)
         except InputError as error:
-            yield f"{error}; {again} makes it anew"
+            yield f"{error}; {again} rebuilds it"
             continue
         if not same:
-            yield f"{path}: does not hold the rows of the sessions; {again} makes it anew"
+            yield f"{path}: does not hold the rows of the sessions; {again} rebuilds it"

@@ -13,7 +13,7 @@ class Column:
     Attributes
     ----------
     name
-        Column name; units are part of it where a reader could doubt (``lap_time_s``).
+        Column name; units are part of it where they could be unclear (``lap_time_s``).
     type
         Arrow type.
     description
@@ -21,9 +21,9 @@ class Column:
     unit
         SI unit, or "" for a number without one.
     allowed
-        Values or range in words, or "" where the type says it all.
+        Values or range in words, or "" where the type is enough.
     nullable
-        Whether the value may be missing; the description says what missing means.
+        Whether the value may be missing; the description tells what missing means.
     since
         Version of the record that has it first; in an older record it is missing, so it must be
         nullable.
@@ -54,9 +54,9 @@ def arrow_schema(columns: tuple[Column, ...], version: int = SCHEMA_VERSION) -> 
 
 
 def brought_up_to_date(table: pa.Table, columns: tuple[Column, ...]) -> pa.Table | None:
-    """Return a table of any record version in this version's columns; None when it is none.
+    """Return a table of any record version in this version's columns; None for any other table.
 
-    Columns that came later are missing throughout.
+    Columns of later versions are all missing.
     """
     wanted = arrow_schema(columns)
     if table.schema.equals(wanted):

@@ -1,4 +1,4 @@
-"""A study directory, opened for a run: the right study, or an empty place."""
+"""A study directory, opened for a run: it holds this study, or nothing."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -32,7 +32,7 @@ def open_folder(
     """Make a study directory, or check that one is this study's and tidy it up.
 
     Sessions that are there stay. A study can be enlarged; asking for fewer participants than are
-    planned there changes nothing. Nobody else may write into the folder meanwhile (``locked``).
+    planned there changes nothing. No other process may write into the folder then (``locked``).
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def open_folder(
     Returns
     -------
     StudyHeader
-        What the folder says about itself now.
+        The head of the study directory, as it is now.
 
     Raises
     ------
@@ -78,7 +78,7 @@ def refuse_another_study(
     Returns
     -------
     StudyHeader or None
-        What the folder says about itself; None when there is no study in it yet.
+        The head of the study directory; None when there is no study in it yet.
 
     Raises
     ------
@@ -96,7 +96,7 @@ def refuse_another_study(
             raise
         raise InputError(
             f"{fault}; the sessions are this study's: remove {folder / STUDY_FILE}, and the same "
-            "`lad-study run` writes it anew"
+            "`lad-study run` writes it again"
         ) from None
     if header.origin != origin:
         raise InputError(
@@ -130,20 +130,20 @@ def make_folder(folder: Path) -> None:
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Hold a study directory, made when it does not exist, until this run ends or dies.
+    """Lock a study directory, made when it does not exist, until this run ends or dies.
 
-    Whoever is going to write anything into it holds it first: of two runs that start at the same
-    moment, the one that comes second must not leave a byte.
+    Every writer locks it first: of two runs that start at the same moment, the second one must not
+    write a byte.
 
     Raises
     ------
     InputError
-        When another process holds it, it cannot be made or written, or its file system has no
+        When another process has locked it, it cannot be made or written, or its file system has no
         locks.
     """
     make_folder(folder)
     try:
-        import fcntl  # noqa: PLC0415  # POSIX only; elsewhere nothing is held
+        import fcntl  # noqa: PLC0415  # POSIX only; on other systems there is no lock
     except ImportError:  # pragma: no cover - not on POSIX
         yield
         return
@@ -170,7 +170,7 @@ def _lock_file(folder: Path) -> Path:
 
 
 def _sessions_are_of(folder: Path, digest: str) -> bool:
-    """Tell whether there are sessions, all of the study with this digest."""
+    """Return whether there are sessions, all of the study with this digest."""
     manifests = [read_manifest(session) for session in session_folders(folder)]
     return bool(manifests) and all(m is not None and m.study == digest for m in manifests)
 

@@ -11,7 +11,7 @@ from protocols.course.schema import Course
 from protocols.files.document import parse
 from protocols.files.dump import to_yaml
 from protocols.files.errors import InputError
-from protocols.files.file_model import FileModel
+from protocols.files.file_model import FileModel, FormatVersion
 from protocols.files.validation import validate
 from protocols.instrument import Instrument
 from protocols.record.atomic import write_whole
@@ -33,14 +33,14 @@ def _origin_of_version_1(data: Mapping[str, Any]) -> Origin:
 
 
 class StudyHeader(FileModel):
-    """What a study directory says about itself.
+    """The head of a study directory: which study it holds.
 
     Attributes
     ----------
     protocol, course, instruments
         The study as it was resolved.
     origin
-        Where the study comes from. A header of version 1 does not say: with a seed it was
+        Where the study comes from. A header of version 1 lacks it: with a seed it was
         simulated, without one recorded elsewhere.
     seed
         None for a study that was recorded elsewhere.
@@ -50,7 +50,7 @@ class StudyHeader(FileModel):
         Of the run that made the directory; every session's manifest has its own.
     """
 
-    schema_version: Annotated[SchemaVersion, Field(alias="schema")] = SCHEMA_VERSION
+    schema_version: Annotated[SchemaVersion, FormatVersion, Field(alias="schema")] = SCHEMA_VERSION
     seed: Annotated[int, Field(ge=0)] | None = None
     origin: Origin = Field(default_factory=_origin_of_version_1)
     digest: str | None = None
@@ -65,6 +65,15 @@ class StudyHeader(FileModel):
         if self.origin != "elsewhere" and self.seed is None:
             raise ValueError(f"origin: {self.origin} needs a seed")
         return self
+
+    @property
+    def planned_participants(self) -> int | None:
+        """How many people were planned; None where a study from elsewhere does not say so."""
+        cohort = self.protocol.cohort
+        said = {"cohort"} <= self.protocol.model_fields_set
+        if self.origin == "elsewhere" and not (said and "participants" in cohort.model_fields_set):
+            return None
+        return cohort.participants
 
     @property
     def study(self) -> ResolvedStudy:
@@ -92,7 +101,7 @@ def write_header(folder: Path, header: StudyHeader) -> None:
 
 
 def read_header(folder: Path) -> StudyHeader:
-    """Return what a study directory says about itself.
+    """Return the head of a study directory.
 
     Raises
     ------

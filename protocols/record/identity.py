@@ -33,9 +33,12 @@ _LATER: Mapping[str, Mapping[str, Any]] = {
 """Fields that came after the first version, with their defaults. A study that does not use them
 is the study it was: its digest and its record stay the same."""
 
+_ABOUT = ("replicates",)
+"""Fields of a protocol that only say what its report shows beside it: not part of the study."""
+
 
 def study_digest(study: ResolvedStudy, seed: int) -> str:
-    """Return the SHA-256 of everything a session depends on besides the participant's number.
+    """Return the SHA-256 of everything but the participant's number that a session depends on.
 
     The number of participants is left out: a study can be enlarged.
     """
@@ -64,9 +67,11 @@ def identity_differences(here: Mapping[str, Any], wanted: Mapping[str, Any]) -> 
 
 
 def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
-    """Return everything a session depends on besides the participant's number, as plain data."""
+    """Return everything but the participant's number that a session depends on, as plain data."""
     protocol = study.protocol.model_dump(mode="json", by_alias=True)
     del protocol["cohort"]["participants"], protocol["cohort"]["expected_dropout"]
+    for field in _ABOUT:
+        del protocol[field]
     _leave_out_defaults(protocol, "protocol")
     for lap in protocol["laps"]:
         _leave_out_defaults(lap, "lap")

@@ -1,6 +1,6 @@
 """A session's journal: what was applied, line by line, as it happened.
 
-One JSON object a line. The first says whose session of which study it is; each other has one key:
+One JSON object a line. The first names the participant and the study; each other has one key:
 
 - ``stage``: [index, kind, lap] as a stage begins;
 - ``tick``: what people gave in one control step, see ``TickEntry``;
@@ -31,24 +31,24 @@ Entry = Mapping[str, Any]
 
 
 def journal_path(folder: Path, participant: str) -> Path:
-    """Return where the journal of a participant's session lies in a study directory."""
+    """Return the path of a participant's journal in a study directory."""
     return folder / JOURNALS / f"{participant}.jsonl"
 
 
 @dataclass(frozen=True, slots=True)
 class JournalHeader:
-    """What a journal says about itself.
+    """The first line of a journal: which session it is.
 
     Attributes
     ----------
     participant
-        Whose session, e.g. P0001.
+        The participant's id, e.g. P0001.
     seed
         The study's.
     identity
         Protocol, course and instruments, as ``protocols.record.identity.identity`` returns them.
     versions
-        Of the packages whose version can change a record.
+        Versions of the packages that can change a record.
     """
 
     participant: str
@@ -74,7 +74,7 @@ def journal_header(study: ResolvedStudy, seed: int, participant: str) -> Journal
 
 @dataclass(frozen=True, slots=True)
 class RecordedJournal:
-    """A journal as it was read.
+    """A journal that was read.
 
     Attributes
     ----------
@@ -113,7 +113,7 @@ def read_journal(path: Path) -> RecordedJournal:
     ------
     InputError
         When the file cannot be read, its first line is no journal's of this version, or a line
-        inside it is damaged; says which.
+        inside it is damaged; names the line.
     """
     try:
         content = path.read_bytes()
@@ -128,13 +128,13 @@ def read_journal(path: Path) -> RecordedJournal:
 
 
 def refuse_other_journal(journal: RecordedJournal, wanted: JournalHeader) -> None:
-    """Refuse a journal that the session at hand could not replay exactly.
+    """Refuse a journal that this session could not replay exactly.
 
     Raises
     ------
     InputError
-        When it is another participant's, another study's or of other package versions; says what
-        differs.
+        When it is another participant's, another study's or of other package versions; names the
+        differences.
     """
     here = journal.header
     found = []
@@ -154,7 +154,7 @@ def refuse_other_journal(journal: RecordedJournal, wanted: JournalHeader) -> Non
 
 
 def drop_torn_line(journal: RecordedJournal) -> None:
-    """Cut off what a killed process left of its last line."""
+    """Remove the incomplete last line that a killed process has left."""
     if journal.path.stat().st_size != journal.whole_bytes:
         os.truncate(journal.path, journal.whole_bytes)
 

@@ -1,13 +1,12 @@
 """Logs of a study directory: not part of the record."""
 
-import csv
-import io
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import BinaryIO
 
+from protocols.files.csv_text import csv_text
 from protocols.record.atomic import naming, write_whole
 
 LOGS = "logs"
@@ -26,7 +25,7 @@ def write_failure(folder: Path, participant: str, trace: str) -> None:
 
 
 def write_given_up(folder: Path, participant: str, reason: str) -> None:
-    """Keep why a session was given up whose processes died: the next run tries it again."""
+    """Keep why a session was given up after its processes died: the next run tries it again."""
     write_log(folder, _name("died", participant), f"{reason}\n")
 
 
@@ -82,7 +81,7 @@ def write_death(folder: Path, participant: str, reason: str) -> None:
 
 
 def write_warnings(folder: Path, participant: str, warned: Sequence[str]) -> None:
-    """Keep what Python warned of during a session; writes nothing when there was nothing."""
+    """Keep Python's warnings of a session; writes nothing when there were none."""
     if warned:
         write_log(folder, f"warnings-{participant}.txt", "\n".join(warned) + "\n")
 
@@ -90,18 +89,16 @@ def write_warnings(folder: Path, participant: str, warned: Sequence[str]) -> Non
 def _append(folder: Path, name: str, row: Sequence[str], header: Sequence[str]) -> None:
     path = folder / LOGS / name
     path.parent.mkdir(exist_ok=True)
-    text = io.StringIO()
-    lines = csv.writer(text, lineterminator="\n")
+    text = csv_text([row])
     with naming(path), path.open("a+b") as stream:
         if stream.seek(0, os.SEEK_END) == 0:
-            lines.writerow(header)
+            text = csv_text([header, row])
         elif _is_cut_short(stream):
-            text.write("\n")
-        lines.writerow(row)
-        stream.write(text.getvalue().encode())
+            text = f"\n{text}"
+        stream.write(text.encode())
 
 
-def _is_cut_short(stream: BinaryIO) -> bool:
-    """Tell whether a run was killed in the middle of the last line."""
-    stream.seek(-1, os.SEEK_END)
-    return stream.read() != b"\n"
+def _is_cut_short(opened: BinaryIO) -> bool:
+    """Return whether a run was killed in the middle of the last line."""
+    opened.seek(-1, os.SEEK_END)
+    return opened.read() != b"\n"

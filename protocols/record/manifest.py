@@ -31,7 +31,7 @@ class Manifest(FileModel):
     versions
         Of the packages that made them.
     study
-        Digest of the study it belongs to, as in ``study.yaml``; None when it does not say.
+        Digest of the study it belongs to, as in ``study.yaml``; None when it is not given.
     """
 
     schema_version: Annotated[SchemaVersion, Field(alias="schema")] = SCHEMA_VERSION
@@ -54,7 +54,7 @@ def entry(content: bytes) -> FileEntry:
 
 
 def parse_manifest(content: bytes) -> Manifest | None:
-    """Return the manifest; None when the content is none."""
+    """Return the manifest; None when the content is not one."""
     try:
         return Manifest.model_validate_json(content)
     except ValidationError:

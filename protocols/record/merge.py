@@ -26,7 +26,7 @@ STUDY_TABLES = (
 )
 """Name of each table, of the file in a session that its rows come from, and its columns.
 
-Participants come last: whoever is in that table is in the others, wherever a run was killed.
+Participants come last: a participant in that table is in the others, even after a killed run.
 """
 
 _SESSIONS_PER_ROW_GROUP = 500
@@ -50,8 +50,8 @@ def build_tables(folder: Path, study: str | None = None) -> None:
     InputError
         When a session's file cannot be read; names it. The old tables are still there then.
     OSError
-        When they cannot be written. The old tables are still there then, as far as none of the new
-        ones has taken its place.
+        When they cannot be written. Every old table that no new one has replaced
+        is still there then.
     """
     participants = finished_sessions(folder, study)
     partials = {folder / table: partial_beside(folder / table) for table, _, _ in STUDY_TABLES}
@@ -73,8 +73,8 @@ def _write(target: Path, partial: Path, schema: pa.Schema, groups: Iterator[pa.T
         with pq.ParquetWriter(partial, schema, **parquet_settings(schema)) as writer:
             for rows in groups:
                 writer.write_table(rows)
-        with partial.open("rb") as stream:
-            os.fsync(stream.fileno())
+        with partial.open("rb") as opened:
+            os.fsync(opened.fileno())
 
 
 def _row_groups(

@@ -15,8 +15,8 @@ from protocols.files.errors import InputError
 def parquet_settings(schema: pa.Schema) -> dict[str, Any]:
     """Return how a table is written: everything that changes the bytes, so no default can.
 
-    Measured floats hardly repeat: a dictionary makes them larger, splitting their bytes into
-    streams before compression makes them a fifth smaller.
+    Measured floats hardly repeat: a dictionary makes them larger. Sorting their bytes by place
+    before compression makes them a fifth smaller.
     """
     floats = [field.name for field in schema if pa.types.is_floating(field.type)]
     return {
@@ -74,7 +74,7 @@ def read_parquet(path: Path, columns: Sequence[str] | None = None) -> pa.Table:
 
 @contextmanager
 def _readable(path: Path) -> Iterator[pq.ParquetFile]:
-    """Open a Parquet file; whatever is wrong with it, while it is open, is the file's fault."""
+    """Open a Parquet file; every error while it is open is reported as the file's fault."""
     try:
         with pq.ParquetFile(path, page_checksum_verification=True) as file:
             yield file

@@ -1,20 +1,35 @@
 """Read a study directory: one of ours, or one that was recorded elsewhere in our schema."""
 
+import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import NamedTuple
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.compute as pc
+from numpy.typing import NDArray
 
 from protocols.course.schema import Course
 from protocols.files.errors import InputError
 from protocols.files.suggestion import listed
 from protocols.instrument import Instrument
 from protocols.record.atomic import is_partial
-from protocols.record.elsewhere import LAPS, PARTICIPANTS, STEPS, SURVEYS, TableRules, conform
+from protocols.record.elsewhere.clock import lap_clock
+from protocols.record.elsewhere.conform import Conformed, conform
+from protocols.record.elsewhere.folders import folders_by_person, lap_shift, strays, unusable_names
+from protocols.record.elsewhere.joined import (
+    doubtful_times,
+    joined_answers,
+    joined_laps,
+    with_practice,
+)
+from protocols.record.elsewhere.placement import INCOMPLETE, Floor, Placement
+from protocols.record.elsewhere.rules import LAPS, PARTICIPANTS, STEPS, SURVEYS, TableRules
 from protocols.record.header import StudyHeader, read_header
 from protocols.record.logs import failures
 from protocols.record.merge import LAPS_TABLE, PARTICIPANTS_TABLE, SURVEYS_TABLE
@@ -29,6 +44,24 @@ from protocols.record.sessions import (
 from protocols.study import StudyProtocol
 
 
+class LapSteps(NamedTuple):
+    """A lap's steps as they can be used, and what was found about them.
+
+    Attributes
+    ----------
+    table
+        Columns of ``protocols.record.steps.STEP_COLUMNS``, then any others.
+    remarks
+        What was repaired, or is missing because it contradicts the lap, in words.
+    placement
+        Whether the positions are on the course; taken for granted in a study of our own.
+    """
+
+    table: pa.Table
+    remarks: tuple[str, ...]
+    placement: Placement
+
+
 @dataclass(frozen=True)
 class Study:
     """A recorded study. Nothing is read before it is asked for; nothing is ever written.
@@ -38,7 +71,7 @@ class Study:
     folder
         The study directory.
     header
-        What ``study.yaml`` says: protocol, course, instruments, seed, versions.
+        The contents of ``study.yaml``: protocol, course, instruments, seed, versions.
     """
 
     folder: Path
@@ -69,23 +102,108 @@ class Study:
         """The seed; None for a study that was recorded elsewhere."""
         return self.header.seed
 
-    @cached_property
+    @property
     def participants(self) -> pa.Table:
         """One row per participant (``protocols.record.tables.PARTICIPANT_COLUMNS``)."""
+        return self._participants.table
+
+    @property
+    def laps(self) -> pa.Table:
+        """One row per lap begun (``protocols.record.tables.LAP_COLUMNS``)."""
+        return self._laps.table
+
+    @property
+    def surveys(self) -> pa.Table:
+        """One row per question asked; without rows when nothing was asked."""
+        return self._surveys.table
+
+    @cached_property
+    def remarks(self) -> tuple[str, ...]:
+        """What of the tables was recognised although it is written otherwise, in words."""
+        found = [*self._participants.remarks, *self._laps.remarks]
+        if self.elsewhere:
+            found += doubtful_times(self.laps)
+        if self._shift:
+            found.append("step tables are counted from 0, laps from 1: matched in their order")
+        with suppress(InputError):  # said where the answers are read
+            found += self._surveys.remarks
+        return tuple(found)
+
+    @cached_property
+    def strays(self) -> tuple[str, ...]:
+        """Step tables that no lap refers to, in words; those of our own studies have checksums."""
+        if not self.elsewhere:
+            return ()
+        people = self.participants["participant"].to_pylist()
+        laps = self._lap_numbers
+        owners = {
+            path: (who, {n - self._shift for n in laps.get(who, ())})
+            for who, path in self._folders.items()
+        }
+        found = list(strays(self.folder / SESSIONS, owners, people))
+        if odd := unusable_names(people):
+            found.append(
+                f"steps of people of whose id no folder can have the name ({', '.join(odd[:5])})"
+            )
+        return tuple(found)
+
+    @cached_property
+    def _participants(self) -> Conformed:
         return self._table(PARTICIPANTS_TABLE, PARTICIPANTS)
 
     @cached_property
-    def laps(self) -> pa.Table:
-        """One row per lap begun (``protocols.record.tables.LAP_COLUMNS``)."""
-        return self._table(LAPS_TABLE, LAPS)
+    def _laps(self) -> Conformed:
+        path = self.folder / LAPS_TABLE
+        laps = self._table(LAPS_TABLE, LAPS)
+        if self.elsewhere:
+            laps = joined_laps(laps, self.participants, self.protocol, path)
+        return with_practice(laps, self.protocol, path)
 
     @cached_property
-    def surveys(self) -> pa.Table:
-        """One row per question asked; without rows when nothing was asked."""
-        if self.elsewhere and not (self.folder / SURVEYS_TABLE).exists():
+    def _surveys(self) -> Conformed:
+        path = self.folder / SURVEYS_TABLE
+        if self.elsewhere and not path.exists():
             nothing = pa.schema([pa.field(c.name, c.type) for c in SURVEYS.columns]).empty_table()
-            return conform(nothing, SURVEYS, self.folder / SURVEYS_TABLE)
-        return self._table(SURVEYS_TABLE, SURVEYS)
+            return conform(nothing, SURVEYS, path)
+        answers = self._table(SURVEYS_TABLE, SURVEYS)
+        if not self.elsewhere:
+            return answers
+        return joined_answers(answers, self.laps, self.participants, self.protocol, path)
+
+    @cached_property
+    def _folders(self) -> dict[str, Path]:
+        people = self.participants["participant"].to_pylist()
+        return folders_by_person(session_folders(self.folder), people)
+
+    @cached_property
+    def _lap_numbers(self) -> dict[str, list[int]]:
+        numbers: dict[str, list[int]] = {}
+        rows = zip(*(self.laps[c].to_pylist() for c in ("participant", "lap")), strict=True)
+        for who, lap in rows:
+            numbers.setdefault(who, []).append(lap)
+        return numbers
+
+    @cached_property
+    def _shift(self) -> int:
+        """What to subtract from a lap's number for its step table's."""
+        if not self.elsewhere:
+            return 0
+        laps = self._lap_numbers
+        return lap_shift({path: laps.get(who, ()) for who, path in self._folders.items()})
+
+    @cached_property
+    def _floor(self) -> Floor:
+        return Floor(self.course)
+
+    @cached_property
+    def _lasted(self) -> dict[tuple[str, int], tuple[bool, tuple[float, ...]]]:
+        """By lap, whether it was finished, and how long it took by any column that says so, s."""
+        columns = ("participant", "lap", "completed", "lap_time_s", "duration_s")
+        rows = zip(*(self.laps[c].to_pylist() for c in columns), strict=True)
+        return {
+            (who, lap): (done, tuple(s for s in times if s is not None and math.isfinite(s)))
+            for who, lap, done, *times in rows
+        }
 
     def sessions(self) -> tuple[str, ...]:
         """Return the participants with a session folder, sorted."""
@@ -113,17 +231,61 @@ class Study:
             When there is no such participant or lap (lists those there are), or the file is
             damaged (names it).
         """
-        path = self._session(participant) / steps_file(lap)
+        if self.elsewhere:
+            table = self.lap_steps(participant, lap).table
+        else:
+            table = self._recorded_steps(participant, lap, columns).table
+        return table if columns is None else table.select(list(columns))
+
+    def lap_steps(self, participant: str, lap: int, *, against_lap: bool = True) -> LapSteps:
+        """Return a lap's steps as an analysis can use them, and what was found about them.
+
+        Of a study from elsewhere, times are brought to the lap's start and its clock is held
+        against the lap's own times; positions are held against the course.
+
+        Parameters
+        ----------
+        participant, lap
+            As of ``steps``.
+        against_lap
+            Whether times are missing that contradict how long the lap took.
+
+        Raises
+        ------
+        InputError
+            As ``steps``.
+        """
+        table, remarks = self._recorded_steps(participant, lap, None)
+        if not self.elsewhere:
+            return LapSteps(table, (), Placement(on_course=True))
+        finished, lasted = self._lasted.get((participant, lap), (False, ()))
+        clock = lap_clock(_floats(table, "t_s"), lasted if against_lap else ())
+        place = table.schema.get_field_index("t_s")
+        table = table.set_column(place, "t_s", pa.array(clock.t_s))
+        xy = np.column_stack([_floats(table, "x_m"), _floats(table, "y_m")])
+        placement = self._floor.placement(xy, finished=finished)
+        said = tuple(r.removeprefix(f"{steps_file(lap - self._shift)}: ") for r in remarks)
+        incomplete = (INCOMPLETE,) if placement.on_course and not placement.whole else ()
+        return LapSteps(table, (*said, *clock.remarks, *incomplete), placement)
+
+    def _recorded_steps(
+        self, participant: str, lap: int, columns: Sequence[str] | None
+    ) -> Conformed:
+        path = self._session(participant) / steps_file(lap - self._shift)
         if not path.is_file():
-            known = [str(n) for n in self._recorded_laps(participant)]
+            known = [str(n + self._shift) for n in self._recorded_laps(participant)]
             raise InputError(f"{self.folder}: {participant} has no lap {lap}; {listed(known)}")
         wanted = None if columns is None else [*columns, *STEPS.required]
-        table = conform(read_parquet(path, wanted), STEPS, path, columns)
-        return table if columns is None else table.select(list(columns))
+        return conform(read_parquet(path, wanted), STEPS, path, columns)
 
     def has_steps(self, participant: str, lap: int) -> bool:
         """Tell whether a lap's steps were recorded: elsewhere, they may not have been."""
-        return (self.folder / SESSIONS / participant / steps_file(lap)).is_file()
+        folder = self.folder / SESSIONS / participant
+        if self.elsewhere:
+            if participant not in self._folders:
+                return False
+            folder = self._folders[participant]
+        return (folder / steps_file(lap - self._shift)).is_file()
 
     def model_bytes(self, participant: str) -> bytes | None:
         """Return the learned model as saved (npz); None when nothing was learnt."""
@@ -144,6 +306,8 @@ class Study:
         return tuple((distinct[key], count[key]) for key in sorted(count))
 
     def _session(self, participant: str) -> Path:
+        if self.elsewhere and participant in self._folders:
+            return self._folders[participant]
         path = self.folder / SESSIONS / participant
         # Listing thousands of sessions for every lap would cost more than reading it.
         if path.name != participant or is_partial(path) or not path.is_dir():
@@ -156,13 +320,16 @@ class Study:
         laps = (name.rpartition("-")[2] for name in names)
         return sorted(int(lap) for lap in laps if lap.isdigit())
 
-    def _table(self, name: str, rules: TableRules) -> pa.Table:
+    def _table(self, name: str, rules: TableRules) -> Conformed:
         path = self.folder / name
         if not path.exists():
-            raise InputError(
-                f"{path}: no such file; the same `lad-study run` again finishes the study"
-            )
+            again = "; the same `lad-study run` again finishes the study"
+            raise InputError(f"{path}: no such file{'' if self.elsewhere else again}")
         return conform(read_parquet(path), rules, path)
+
+
+def _floats(table: pa.Table, name: str) -> NDArray[np.float64]:
+    return np.asarray(table[name].to_numpy(), dtype=np.float64)
 
 
 def off_scale(study: Study) -> Iterator[tuple[int, str]]:
@@ -184,7 +351,7 @@ def open_study(folder: Path | str) -> Study:
     Raises
     ------
     InputError
-        When it is none, has no session yet, one of its tables cannot be used, or they lack
+        When it is no study directory, has no session yet, has an unusable table, or its tables lack
         sessions that a run which was stopped has finished.
 
     Examples
@@ -201,7 +368,9 @@ def open_study(folder: Path | str) -> Study:
     for name, rows in ((PARTICIPANTS_TABLE, study.participants), (LAPS_TABLE, study.laps)):
         if not len(rows):
             raise InputError(f"{folder / name}: has no row{_what_to_do(study)}")
-    if not study.elsewhere:  # elsewhere nobody can make them anew: their faults are reported
+    if (
+        not study.elsewhere
+    ):  # no run here can rebuild those of other programs: their faults are reported
         for _, fault in off_scale(study):
             raise InputError(fault)
     _refuse_stale_tables(study)
@@ -209,23 +378,23 @@ def open_study(folder: Path | str) -> Study:
 
 
 def _what_to_do(study: Study) -> str:
-    """Return how a table without a row comes to have some."""
+    """Return what to do about a table without a row."""
     if study.elsewhere:
         return "; a report needs at least one participant and one lap"
     n = len(study.sessions())
     if not n:
         return " and there is no session in the study yet; run it first"
-    return f", but there are {n} sessions; the same `lad-study run` again makes it anew"
+    return f", but there are {n} sessions; the same `lad-study run` again rebuilds it"
 
 
 def _refuse_stale_tables(study: Study) -> None:
-    """Refuse tables that a stopped run has not come to build: they would hide its sessions."""
-    if study.elsewhere:  # recorded elsewhere: who is in the tables is its makers' choice
+    """Refuse tables older than a stopped run's sessions: they would hide those sessions."""
+    if study.elsewhere:  # recorded elsewhere: its makers decided who is in the tables
         return
     known = set(study.participants["participant"].to_pylist())
     new = [name for name in finished_sessions(study.folder) if name not in known]
     if new:
         raise InputError(
             f"{study.folder / PARTICIPANTS_TABLE}: lacks {len(new)} finished sessions ({new[0]} "
-            "first): a run is not over, or was stopped; the same `lad-study run` again ends it"
+            "first): a run is not over, or was stopped; the same `lad-study run` again finishes it"
         )

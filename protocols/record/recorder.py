@@ -1,6 +1,7 @@
 """Collect a lap's steps cheaply, and turn them into the step table once."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,8 @@ from protocols.record.steps import STEP_COLUMNS, STEP_SCHEMA
 _STREAMS = tuple(c for c in STEP_COLUMNS if c.name not in INPUT_NAMES)
 _REQUIRED = frozenset(c.name for c in _STREAMS if not c.nullable)
 _KNOWN = frozenset(c.name for c in _STREAMS)
+_NAMES = tuple(c.name for c in _STREAMS)
+_VALUES = itemgetter(*_NAMES)
 
 
 class StepRecorder:
@@ -55,19 +58,29 @@ class StepRecorder:
         Raises
         ------
         ValueError
-            When a step lacks a column that may not be missing, has a column nobody knows, or
-            holds a value of the wrong type, NaN or infinity; says which.
+            When a step lacks a column that may not be missing, has an unknown column, or
+            holds a value of the wrong type, NaN or infinity; names the column.
         """
         self._check_names()
         inputs = np.array(self._inputs, dtype=np.float64).reshape(len(self), N_INPUTS)
+        streams = self._columns()
         columns = []
         for column in STEP_COLUMNS:
             if column.name in INPUT_NAMES:
                 values: Any = np.ascontiguousarray(inputs[:, INPUT_NAMES.index(column.name)])
             else:
-                values = [step.get(column.name) for step in self._streams]
+                values = streams[column.name]
             columns.append(_array(column.name, column.type, values, nullable=column.nullable))
         return pa.Table.from_arrays(columns, schema=STEP_SCHEMA)
+
+    def _columns(self) -> dict[str, Sequence[Any]]:
+        """Return the values of each column; names are checked, so as many as all is all."""
+        rows = [
+            _VALUES(step) if len(step) == len(_NAMES) else tuple(map(step.get, _NAMES))
+            for step in self._streams
+        ]
+        values = zip(*rows, strict=True) if rows else [()] * len(_NAMES)
+        return dict(zip(_NAMES, values, strict=True))
 
     def _check_names(self) -> None:
         shapes: dict[tuple[str, ...], int] = {}

@@ -1,4 +1,4 @@
-"""The command that goes on with a study directory."""
+"""The command that resumes the run of a study directory."""
 
 import shlex
 from dataclasses import replace
@@ -10,7 +10,7 @@ from protocols.record.header import StudyHeader
 from protocols.record.identity import study_digest
 
 _FILE = "PROTOCOL"
-"""Stands for a protocol file: a study directory holds what it said, not where it was."""
+"""In place of a protocol file: a study directory holds its contents, not its path."""
 
 
 def resume_command(folder: Path, header: StudyHeader) -> str:
@@ -42,7 +42,7 @@ def _protocol(header: StudyHeader) -> tuple[str, ...]:
         return (_FILE,)
     try:
         shipped = resolve_study(name, course=course)
-    except InputError:  # somebody's own course
+    except InputError:  # a course that does not ship
         return (_FILE,)
     registration = header.protocol.registration
     protocol = shipped.protocol.model_copy(update={"registration": registration})

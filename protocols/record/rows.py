@@ -1,7 +1,7 @@
 """The rows of the study's tables, as a session fills them in.
 
 Their fields are the columns of ``protocols.record.tables``, name by name; what each means, its
-unit and its allowed values stand there.
+unit and its allowed values are there.
 """
 
 import math
@@ -13,7 +13,7 @@ from protocols.condition import AssistantRole
 from protocols.instrument import Item
 
 EndReason = Literal["finished", "time_limit", "withdrew", "stopped", "disconnected", "interrupted"]
-"""Finished; too slow; the participant left; whoever held the clock stopped the lap; a person's
+"""Finished; too slow; the participant left; the experimenter stopped the lap; a person's
 connection was lost; the program ended in the middle."""
 
 ASSISTANT_ROLES: tuple[AssistantRole, ...] = get_args(AssistantRole)
@@ -21,11 +21,11 @@ ASSISTANT_ROLES: tuple[AssistantRole, ...] = get_args(AssistantRole)
 END_REASONS: tuple[EndReason, ...] = get_args(EndReason)
 
 ENDS_SESSION: frozenset[EndReason] = frozenset({"withdrew", "interrupted"})
-"""After a lap that ended so, nothing follows."""
+"""A lap with one of these ends is the last of its session."""
 
 
 def questions_follow(reason: str) -> bool:
-    """Tell whether questions about a lap are asked: it was driven to its end or its time limit."""
+    """Return whether a lap's questions are asked: it was driven to its end or its time limit."""
     return reason in {"finished", "time_limit"}
 
 
@@ -41,11 +41,11 @@ def participant_id(number: int) -> str:
 
 
 def participant_number(participant: str) -> int:
-    """Return the number in an id of ours; 0 for an id that is none.
+    """Return the number in an id that ``participant_id`` has made; 0 for any other text.
 
     Examples
     --------
-    >>> participant_number("P0012"), participant_number("somebody")
+    >>> participant_number("P0012"), participant_number("patient 12")
     (12, 0)
     """
     digits = participant.removeprefix("P")

@@ -1,4 +1,4 @@
-"""One participant's whole visit, in memory, and as the bytes of its files."""
+"""One participant's whole session, in memory, and as the bytes of its files."""
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
@@ -38,7 +38,7 @@ class RecordedLap:
 
 @dataclass(frozen=True, slots=True)
 class SessionRecord:
-    """One participant's whole visit.
+    """One participant's whole session.
 
     Attributes
     ----------

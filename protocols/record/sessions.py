@@ -1,4 +1,4 @@
-"""Session folders: each there whole or not at all."""
+"""Session folders: each appears whole or not at all."""
 
 import itertools
 import shutil
@@ -14,7 +14,7 @@ SESSIONS = "sessions"
 
 
 SET_ASIDE = "set-aside"
-"""Folder of a study directory with what could not be used, and must not be deleted."""
+"""Folder of a study directory for sessions that cannot be used but must not be deleted."""
 
 
 def write_session(
@@ -35,7 +35,7 @@ def write_session(
         As ``protocols.record.session.encode`` returns them, manifest included.
     keep_damaged
         Whether a session that is replaced is moved to ``SET_ASIDE``, as a living person's must
-        be; a simulated one can be made anew and is deleted.
+        be; a simulated one can be rebuilt and is deleted.
 
     Raises
     ------
@@ -75,7 +75,7 @@ def _checked(participant: str, files: Mapping[str, bytes]) -> Manifest:
 
 
 def set_aside(folder: Path, participant: str) -> Path | None:
-    """Move a session's folder to where nothing is deleted; return where, None if there is none."""
+    """Move a session's folder to ``SET_ASIDE``; return its new path, None if there is none."""
     source = folder / SESSIONS / participant
     if not source.exists():
         return None
@@ -91,7 +91,7 @@ def set_aside(folder: Path, participant: str) -> Path | None:
 
 
 def _delete(target: Path) -> None:
-    """Delete a damaged session, renamed first: a killed run must not leave half of it."""
+    """Delete a damaged session; rename it first, so that a killed run never leaves half of it."""
     if target.exists():
         aside = partial_beside(target.with_name(f"damaged-{target.name}"))
         shutil.rmtree(aside, ignore_errors=True)
@@ -140,9 +140,9 @@ def session_folders(folder: Path) -> tuple[Path, ...]:
 
 
 def is_whole(session: Path, study: str | None = None) -> bool:
-    """Tell whether every file of a session's manifest is there with its size.
+    """Return whether every file of a session's manifest is there with its size.
 
-    With a study's digest, tell also whether it is a session of that study, as far as it says.
+    With a study's digest, also whether it is a session of that study, where its manifest tells.
     ``session_faults`` compares checksums too.
     """
     manifest = read_manifest(session)
@@ -169,7 +169,7 @@ def read_manifest(session: Path) -> Manifest | None:
 
 
 def session_faults(session: Path) -> Iterator[str]:
-    """Compare a session's files with its manifest, and say in one line each what is wrong."""
+    """Compare a session's files with its manifest, and return one line for each fault."""
     manifest = read_manifest(session)
     if manifest is None:
         yield f"{session / MANIFEST_FILE}: missing or damaged"

@@ -13,7 +13,7 @@ HANDEDNESS = ("right", "left", "both", "undisclosed")
 
 PARTICIPANT_COLUMNS: tuple[Column, ...] = (
     _ID,
-    Column("kind", pa.string(), "What sat in the chair", "", "synthetic, scripted, live"),
+    Column("kind", pa.string(), "What the driver was", "", "synthetic, scripted, live"),
     Column("driver", pa.string(), "Driver as the protocol names it"),
     Column("impairment", pa.string(), "Participant's own impairment", "", "none, or its name"),
     Column("age_years", pa.int16(), "Age", "years", nullable=True),
@@ -60,8 +60,8 @@ LAP_COLUMNS: tuple[Column, ...] = (
            nullable=True),
     Column("basis_vectors_how", pa.int32(), "Basis vectors of the regressor at the lap's end",
            nullable=True),
-    Column("seed", pa.uint64(), "Fingerprint of the lap's random streams"),
-    Column("stop_reason", pa.string(), "Why the lap was stopped, in the words of who stopped it",
+    Column("seed", pa.uint64(), "Fingerprint of the lap's random numbers"),
+    Column("stop_reason", pa.string(), "Why the lap was stopped, as the experimenter wrote it",
            nullable=True, since=2),
     Column("pauses", pa.int32(), "How often the lap was paused; missing in simulated time", "",
            "0 or more", nullable=True, since=2),

@@ -125,7 +125,7 @@ def as_table(steps: pd.DataFrame) -> pa.Table:
 
 
 def session(study: ResolvedStudy, number: int, how: MadeUp, seed: int) -> SessionRecord:
-    """Return one participant's made-up visit."""
+    """Return one participant's made-up session."""
     rng = np.random.default_rng([seed, number])
     who = participant_id(number)
     laps: list[RecordedLap] = []

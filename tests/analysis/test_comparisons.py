@@ -102,7 +102,7 @@ def test_the_smallest_p_after_holm_is_known(make_study, people, least):
 
 
 def test_equal_answers_cannot_be_tested(make_study):
-    """When everybody answers alike there is no difference to rank."""
+    """When all answers are equal there is no difference to rank."""
     frames = study_frames(make_study(answer=3))
     (c,) = item_comparisons(frames, "driving-assistance", ["Q7"])
     assert c.signed_rank.why_not == "every difference is zero"

@@ -57,7 +57,7 @@ def test_laps_add_up(eventful):
 
 
 def test_who_leaves_in_practice_is_in_every_denominator(make_study):
-    """The lap rows still add up to everybody, with the one who left as not driven."""
+    """The lap rows still add up to all participants, with the one who left as not driven."""
     flow = participants_flow(study_frames(make_study(participants=3, withdrew={2: 0})))
     assert (flow.analysed, flow.completed) == (3, 2)
     assert flow.laps["planned"].tolist() == [3] * 4
@@ -79,7 +79,7 @@ def test_a_finished_lap_without_a_time_is_counted(make_study):
 
 
 def test_withdrawals_keep_their_words(eventful):
-    """Everybody who left is listed with the words, also who left in practice or is excluded."""
+    """All who left are listed with their words, also those who left in practice or are excluded."""
     left = participants_flow(study_frames(eventful)).withdrawals
     assert [tuple(row) for row in left.itertuples(index=False)] == [
         ("P0003", 3, "human-assisted", "I feel dizzy"),
@@ -88,7 +88,7 @@ def test_withdrawals_keep_their_words(eventful):
 
 
 def test_who_refused_consent_is_not_quoted(eventful):
-    """Words of somebody without consent stay in the record."""
+    """Words of a participant without consent stay in the record."""
     people = pd.read_parquet(eventful.folder / "participants.parquet").drop(columns="traits")
     people["consented"] = people["participant"] != "P0003"
     people.to_parquet(eventful.folder / "participants.parquet")
@@ -97,7 +97,7 @@ def test_who_refused_consent_is_not_quoted(eventful):
 
 
 def test_the_excluded_are_in_no_frame(eventful):
-    """No lap or answer of an excluded participant is analysed; practice laps of nobody."""
+    """No lap or answer of an excluded participant is analysed; nor is any practice lap."""
     frames = study_frames(eventful)
     out = {"P0004", "P0005"}
     assert not out & set(frames.laps["participant"])
@@ -118,7 +118,7 @@ def test_rows_that_refer_to_nothing_are_named(make_study):
     surveys.to_parquet(folder / "surveys.parquet")
     said = participants_flow(study_frames(open_study(folder))).left_out
     assert said == (
-        "1 lap of people who are not in the table of participants",
+        "1 lap of people who are not in the table of participants (P0099)",
         "1 lap of conditions that the study does not have (blindfolded)",
         "1 answer of instruments that the study does not have (horoscope)",
     )

@@ -112,7 +112,7 @@ def test_the_last_answer_counts(make_study, tmp_path):
 
 
 def test_answers_that_nobody_can_use_are_named(make_study):
-    """Of somebody unknown, in an unknown condition, to an unknown item."""
+    """Of an unknown participant, in an unknown condition, to an unknown item."""
 
     def spoilt(surveys):
         surveys.loc[0, "participant"] = "GHOST"
@@ -122,7 +122,7 @@ def test_answers_that_nobody_can_use_are_named(make_study):
 
     frames = changed(make_study(participants=2), "surveys", spoilt)
     assert participants_flow(frames).left_out == (
-        "1 answer of people who are not in the table of participants",
+        "1 answer of people who are not in the table of participants (GHOST)",
         "1 answer of conditions that the study does not have (zzz)",
         "1 answer of items of driving-assistance that the study does not have (Q99)",
     )

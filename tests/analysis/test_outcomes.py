@@ -16,7 +16,7 @@ def test_an_unfinished_lap_has_no_lap_time(make_study):
 
 
 def test_who_drove_nothing_stays_a_row(make_study):
-    """A participant without an analysed lap is a row of gaps: nobody vanishes."""
+    """A participant without an analysed lap is a row of gaps: no participant is lost."""
     frames = study_frames(make_study(withdrew={2: 0}))
     wide = by_participant(frames, "lap_time_s")
     assert wide.loc["P0002"].isna().all()

@@ -3,7 +3,7 @@
 import pytest
 from PIL import Image
 
-from analysis.replay import EVERY, write_replay
+from analysis.replay import shown_steps, write_replay
 from protocols.files.errors import InputError
 
 
@@ -11,10 +11,10 @@ def test_a_replay_moves_and_shows_who_is_in_control(study, tmp_path):
     """Every other step and the last one; the trail takes the model's colour where it helped."""
     out = tmp_path / "lap.gif"
     write_replay(study.folder, "P0001", 4, out)
-    n = len(study.steps("P0001", 4))
+    t = study.steps("P0001", 4)["t_s"].to_numpy()
     with Image.open(out) as gif:
         assert gif.format == "GIF"
-        assert gif.n_frames == len({*range(0, n, EVERY), n - 1})
+        assert gif.n_frames == len(shown_steps(t))
         first = gif.convert("RGB").tobytes()
         gif.seek(gif.n_frames - 1)
         last = gif.convert("RGB")

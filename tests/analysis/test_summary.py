@@ -20,7 +20,7 @@ def test_one_row_per_condition_with_speedups_over_limited(study):
 
 
 def test_a_single_unfinished_lap_does_not_break_it(make_study):
-    """Nobody finished the limited lap: no mean, no speedup, one unfinished."""
+    """No one finished the limited lap: no mean, no speedup, one unfinished."""
     table = lap_summary(make_study(participants=1, unfinished=frozenset({(1, 2)})))
     limited = table.set_index("condition").loc["limited"]
     assert (limited["n"], limited["unfinished"]) == (0, 1)

@@ -65,7 +65,7 @@ class Started:
 
 
 def _code(largest_file):
-    # Whoever runs the tests in the background may have had Ctrl-C ignored for all it starts.
+    # A shell that runs the tests in the background may have made all it starts ignore Ctrl-C.
     hear = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
     code = f"{hear}; from harness.cli import main; main()"
     if largest_file is None:

@@ -28,6 +28,7 @@ laps:
 DRIVER = """\
 import time
 from pathlib import Path
+import joystick_of_ours
 from lad.command import Command
 
 class Patient:
@@ -74,7 +75,7 @@ def scheduler(dask, tmp_path, wait_until):
         "scheduler", "--host", "127.0.0.1", "--port", 0, "--no-dashboard",
         "--scheduler-file", file,
     )  # fmt: skip
-    wait_until(file.exists)
+    wait_until(lambda: file.exists() and file.stat().st_size)
     return process, json.loads(file.read_text())["address"]
 
 
@@ -82,8 +83,9 @@ def scheduler(dask, tmp_path, wait_until):
 def add_worker(dask, scheduler, wait_until, packages):
     """Return the function that adds a worker process to the cluster."""
 
-    def add(threads, *folders):
-        path = os.pathsep.join(map(str, [packages, *folders]))
+    def add(threads, *folders, first=None):
+        before = [] if first is None else [first]
+        path = os.pathsep.join(map(str, [*before, packages, *folders]))
         process, log = dask(
             "worker", scheduler[1], "--no-nanny", "--no-dashboard", "--nthreads", threads,
             path=path,
@@ -118,10 +120,14 @@ def test_a_machine_that_lacks_something_leaves(scheduler, add_worker, start, wai
     """Its sessions are run elsewhere, and the log says which machine it was and what it lacks."""
     out, go, folder = tmp_path / "study", tmp_path / "go", tmp_path / "drivers"
     folder.mkdir()
-    (folder / "odd_driver.py").write_text(DRIVER)
+    (folder / "joystick_of_ours.py").write_text("")
+    (tmp_path / "odd_driver.py").write_text(DRIVER)
     (tmp_path / "odd.yaml").write_text(ODD.format(go=go))
     add_worker(1, folder)
-    run = start("run", "odd.yaml", "--no-report", "--out", out, "--scheduler", scheduler[1])
+    run = start(
+        "run", "odd.yaml", "--trust", "--no-report", "--out", out, "--scheduler", scheduler[1],
+        XDG_STATE_HOME=str(tmp_path / "state"),
+    )  # fmt: skip
     wait_until((out / "study.yaml").exists)
     doomed = add_worker(2)
     go.touch()
@@ -131,13 +137,28 @@ def test_a_machine_that_lacks_something_leaves(scheduler, add_worker, start, wai
     doomed.wait(60)
     for death in csv.DictReader((out / "logs" / "deaths.csv").read_text().splitlines()):
         assert death["reason"].startswith(f"on {socket.gethostname()}: ")
-        assert "No module named 'odd_driver'" in death["reason"]
+        assert "No module named 'joystick_of_ours'" in death["reason"]
+
+
+def test_a_cluster_whose_only_worker_lacks_the_package_is_refused(
+    scheduler, add_worker, start_quick, tmp_path
+):
+    """The machine and what it lacks are named within seconds, and nothing is written."""
+    (tmp_path / "bare" / "harness").mkdir(parents=True)
+    says = "raise ModuleNotFoundError(\"No module named 'harness'\", name='harness')\n"
+    (tmp_path / "bare" / "harness" / "__init__.py").write_text(says)
+    add_worker(1, first=tmp_path / "bare")
+    ended = start_quick(tmp_path / "study", "--scheduler", scheduler[1]).ended()
+    assert ended.code == 1
+    assert ended.err.count("\n") == 1
+    assert f"on {socket.gethostname()}: ModuleNotFoundError: No module named 'harness'" in ended.err
+    assert not (tmp_path / "study").exists()
 
 
 def test_a_run_without_a_worker_says_so_and_waits(
     scheduler, add_worker, start_quick, wait_until, finished, record, undisturbed, tmp_path
 ):
-    """With the next worker it goes on, to the same bytes."""
+    """With the next worker it resumes, to the same bytes."""
     out, only = tmp_path / "study", add_worker(1)
     run = start_quick(out, "--scheduler", scheduler[1])
     wait_until(lambda: finished(out) >= 1)
@@ -153,7 +174,7 @@ def test_a_lost_scheduler_ends_a_run_in_one_line(
     scheduler, add_worker, start_quick, wait_until, finished, run_quick, record, undisturbed,
     tmp_path,
 ):  # fmt: skip
-    """What was finished is kept, and the same study goes on without the cluster."""
+    """What was finished is kept, and the same study resumes without the cluster."""
     out = tmp_path / "study"
     add_worker(1)
     run = start_quick(out, "--scheduler", scheduler[1])
@@ -162,6 +183,6 @@ def test_a_lost_scheduler_ends_a_run_in_one_line(
     ended = run.ended()
     assert ended.code == 1
     said = [line for line in ended.err.splitlines() if not line.startswith("Sessions ")]
-    assert said == ["lad-study: the Dask scheduler was lost; the same command again goes on"]
+    assert said == ["lad-study: the Dask scheduler was lost; the same command resumes the run"]
     assert run_quick(out).code == 0
     assert record(out) == undisturbed

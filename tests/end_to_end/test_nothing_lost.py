@@ -70,7 +70,7 @@ def test_a_killed_run_is_finished_by_the_same_command(
 def test_a_run_survives_the_death_of_a_worker(
     at_a_random_moment, record, undisturbed, tmp_path, kills
 ):
-    """Kill -9 of a worker at a random moment: the run goes on and ends as if nothing had been."""
+    """Kill -9 of a worker at a random moment: the run continues, and ends with the same bytes."""
     out, moments = tmp_path / "study", random.Random(kills)  # noqa: S311  # no secret
     for _ in range(kills):
         run = at_a_random_moment(moments)
@@ -96,7 +96,7 @@ def test_a_killed_session_is_logged(at_a_random_moment, record, undisturbed, tmp
 def test_ctrl_c_ends_a_run_in_one_line(
     start_quick, wait_until, finished, run_quick, record, undisturbed, tmp_path
 ):
-    """Exit code 1, no traceback, no process left; the same command goes on."""
+    """Exit code 1, no traceback, no process left; the same command resumes the run."""
     out = tmp_path / "study"
     run = start_quick(out, "--jobs", 2)
     wait_until(lambda: finished(out) >= 1)

@@ -16,7 +16,7 @@ from protocols.load import resolve_study
 
 @pytest.fixture(scope="module")
 def record():
-    """Return the session of somebody with hardly any patience."""
+    """Return the session of a person with hardly any patience."""
     study = resolve_study("four-lap")
     cohort = Cohort.model_validate({"traits": {"patience_s": {"median": 10.5, "spread": 0}}})
     protocol = study.protocol.model_copy(update={"cohort": cohort})
@@ -44,7 +44,7 @@ def test_the_session_ends_and_the_person_stays_counted(record):
     assert all(answer.lap < record.laps[-1].row.lap for answer in record.answers)
 
 
-def test_whoever_leaves_is_not_excluded(record):
+def test_a_participant_who_leaves_is_not_excluded(record):
     """The shipped study has no rule that would take dropouts out of its denominators."""
     assert not record.participant.excluded
     assert record.participant.exclusion_reason is None

@@ -71,7 +71,7 @@ def test_a_run_prints_the_promises_and_writes_rows(bench, monkeypatch, tmp_path,
     assert (tmp_path / "plot.svg").stat().st_size > 1000
 
 
-def test_promises_are_held_against_the_measurement(bench):
+def test_aims_are_compared_with_the_measurement(bench):
     """A step of ten products is reported as missed."""
     rows = [bench.Row("lad", "full+delete", m, 4, float(m)) for m in bench.SIZES]
     rows += [
@@ -80,5 +80,5 @@ def test_promises_are_held_against_the_measurement(bench):
     ]
     first, second, third = bench.verdict(rows).splitlines()
     assert first.endswith("10.00 (at most 9): MISSED")
-    assert second.endswith("0.50 (at most 0.6): held")
-    assert third.endswith("1.00 (at most 2): held")
+    assert second.endswith("0.50 (at most 0.6): met")
+    assert third.endswith("1.00 (at most 2): met")

@@ -1,4 +1,4 @@
-"""Machine code is kept where it can be, and made anew where it cannot."""
+"""Machine code is kept where it can be, and compiled again where it cannot."""
 
 import os
 import shutil

@@ -34,7 +34,7 @@ def test_untrained_has_nothing_to_watch():
 
 
 def test_damage_is_noticed_and_repaired(stream, make_hyperparameters):
-    """A wrong entry in Q is found by the watch, Q is computed anew, and the repair is counted."""
+    """A wrong entry in Q is found by the watch, Q is recomputed, and the repair is counted."""
     process = StorkGP(make_hyperparameters(), n_outputs=2)
     x, y = stream(0, 300, 0.05)
     learn_stream(process, x[:200], y[:200])

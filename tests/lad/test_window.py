@@ -27,7 +27,7 @@ def test_holds_the_last_inputs_newest_first(inputs):
 
 
 def test_reset_forgets_the_past_and_counts_laps():
-    """A reset leaves zeros and opens a lap, but an empty lap does not count; time goes on."""
+    """A reset leaves zeros and opens a lap, but an empty lap does not count; time continues."""
     window = Window(np.ones(2), depth=3)
     window.reset()
     assert window.lap == 0

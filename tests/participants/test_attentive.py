@@ -144,7 +144,7 @@ def test_help_waits_for_the_turn_to_begin(winding):
 
 
 def test_reaction_takes_time_and_varies(winding):
-    """From one intervention to the next the delay is drawn anew, around its median."""
+    """From one intervention to the next the delay is drawn again, around its median."""
     who = AttentiveDemonstrator(winding.course, AttentiveOptions(), np.random.default_rng(3))
     delays = []
     for _ in range(60):
@@ -155,7 +155,7 @@ def test_reaction_takes_time_and_varies(winding):
 
 
 def test_hysteresis(winding):
-    """Nearly aligned, help that runs goes on; help that has ended does not start again."""
+    """Nearly aligned, help that runs continues; help that has ended does not start again."""
     who = demonstrator(winding.course, reaction_s=0.0)
     nearly, aligned = Pose(4.0, -0.4, -1.2), Pose(4.0, -0.4, -math.pi / 2)
     assert watch(who, CORNER, 0.0).helping

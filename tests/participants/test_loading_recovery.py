@@ -16,7 +16,7 @@ QUESTIONS = tuple(Question("driving-assistance", item) for item in DRIVING_ASSIS
 
 
 def lap(rng):
-    """Return a lap as it might have been lived; nothing in it follows from anything else."""
+    """Return a possible experience of a lap; its values are independent of each other."""
     assisted = float(rng.uniform(0.02, 0.5))
     return LapExperience(
         lap_time=50.0 * float(np.exp(rng.normal(0.2, 0.4))),
@@ -34,11 +34,11 @@ def survey(cohort):
     felt, answers, styles = [], [], []
     for i in range(PEOPLE):
         rng = np.random.default_rng([11, i])
-        person, lived = draw_person(cohort, rng), lap(rng)
+        person, experience = draw_person(cohort, rng), lap(rng)
         respondent = make_respondent("ordinal", RespondentSetup(QUESTIONS, rng, person.style))
-        felt.append({**impression(lived), "liking": person.style.liking})
+        felt.append({**impression(experience), "liking": person.style.liking})
         styles.append(person.style)
-        answers.append(respondent.answer(QUESTIONS, lived, rng))
+        answers.append(respondent.answer(QUESTIONS, experience, rng))
     names = tuple(felt[0])
     x = np.array([[row[name] for name in names] for row in felt])
     y = np.array([[np.nan if a is None else a for a in row] for row in answers])
@@ -46,7 +46,7 @@ def survey(cohort):
 
 
 def fitted(x, y):
-    """Return an ordered probit's weights; nobody left out but those who did not answer."""
+    """Return an ordered probit's weights; only those who did not answer are left out."""
     there = ~np.isnan(y)
     model = OrderedModel(y[there].astype(int), x[there], distr="probit")
     return model.fit(method="bfgs", disp=False).params[: x.shape[1]]
@@ -68,7 +68,7 @@ def test_loadings_come_back_from_a_cohort_with_its_yea_sayers():
 
 
 def test_loadings_come_back_in_proportion_from_the_whole_cohort():
-    """With everybody's own use of the scale the weights shrink, and keep their proportions."""
+    """With each person's own use of the scale the weights shrink, and keep their proportions."""
     names, x, y, _ = survey(Cohort())
     some = [0, 5, 6, 10]
     found = np.array([fitted(x, y[:, i]) for i in some]).ravel()

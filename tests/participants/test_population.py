@@ -51,7 +51,7 @@ def test_people_are_correlated_as_declared(many):
 
 
 def test_without_spread_all_are_alike():
-    """A population can fix a trait for everybody."""
+    """A population can fix a trait for all people."""
     fixed = {**PEOPLE.marginals, "practice_exponent": Marginal(0.3, 0.0)}
     values = Population(fixed, PEOPLE.correlations).values(np.full(N, 2.0))
     assert values["practice_exponent"] == pytest.approx(0.3)

@@ -20,7 +20,7 @@ def sight(t, pose=HERE, velocity=STILL):
 
 @pytest.fixture
 def recovery(lab_office):
-    """Return a recovery of somebody with a second's patience."""
+    """Return a recovery of a driver with a second's patience."""
     return Recovery(known_raster(lab_office), 1.0)
 
 
@@ -60,7 +60,7 @@ def test_lingering_counts_as_stuck(recovery):
 
 
 def test_help_ends_it(recovery):
-    """Somebody who takes over ends the attempt, and patience starts anew."""
+    """A takeover ends the attempt, and patience starts again."""
     for t in range(13):
         trying = recovery.movement(sight(t / 10), AHEAD, 0.0)
     assert trying is not None

@@ -83,7 +83,7 @@ def test_extremity_spreads_the_answers():
 
 
 def test_liking_concerns_assistance_only():
-    """A friend of assistance answers the items about the task like anybody."""
+    """A person who likes assistance answers the items about the task like the others."""
     gap = answers(CALM, replace(NO_STYLE, liking=2.0)).mean(axis=0) - answers(CALM).mean(axis=0)
     assert gap[:4] == pytest.approx(0.0)
     assert gap[QUESTIONS.index(Question("driving-assistance", "Q11"))] > 0.5
@@ -112,7 +112,7 @@ def test_a_limited_lap_is_called_more_difficult():
 
 
 def test_an_unknown_item_is_refused_before_the_study():
-    """Nobody can answer what nothing is known about; the message says what to do."""
+    """An item without loadings is refused; the message tells what to do."""
     setup = RespondentSetup((Question("trust", "T1"),), np.random.default_rng(0))
     with pytest.raises(InputError, match="item 'T1' of instrument 'trust'; allowed: none, or item"):
         make_respondent("ordinal", setup)

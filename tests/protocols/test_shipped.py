@@ -66,6 +66,6 @@ def test_shipped_files_are_shown_with_their_comments():
     assert shipped_text("four-lap").startswith("# The study with people")
     assert "Q11" in shipped_text("driving-assistance")
     with pytest.raises(
-        InputError, match=r"nothing that ships is named 'lab'; allowed: .*lab-office"
+        InputError, match=r"no shipped protocol.* is named 'lab'; allowed: .*lab-office"
     ):
         shipped_text("lab")

@@ -34,7 +34,7 @@ def _faults(*laps: Any, **fields: Any) -> dict[str, str]:
 
 
 def test_equivalence_is_of_means_not_of_answers():
-    """A t-test of answers on five points would be one nobody signs."""
+    """Answers on five points have no mean to be tested."""
     analysis = {
         "name": "a", "outcome": "driving-assistance.Q7", "condition": "limited",
         "reference": "baseline", "equivalence_margin": 1.0,
@@ -66,7 +66,7 @@ def test_a_study_cannot_be_changed():
 
 
 def test_training_needs_a_demonstrator():
-    """Nobody teaches in a lap without a demonstrator."""
+    """A lap without a demonstrator cannot be a training lap."""
     with pytest.raises(ValidationError, match="needs assistant: demonstrator"):
         _study("a", conditions={"a": {"assistant": "model", "training": True}})
 
@@ -133,7 +133,7 @@ def test_an_outcome_is_a_lap_column_or_an_item():
 
 
 def test_options_are_for_a_model_of_ones_own():
-    """The shipped model takes parameters, somebody else's takes options."""
+    """The shipped model takes parameters, your own takes options."""
     with pytest.raises(ValidationError, match="lad takes parameters"):
         _study("limited", model={"options": {"k": 3}})
     other = _study("limited", model={"use": "my.lab:model", "options": {"k": 3}})
@@ -148,6 +148,6 @@ def test_ages_must_be_possible():
 
 
 def test_a_right_plan_has_no_faults():
-    """The check says nothing about a plan that agrees with itself."""
+    """The check finds no fault in a protocol whose parts agree."""
     study = _study("baseline", "limited", "taught", "helped")
     check_consistency(study.conditions, study.laps, study.analyses, cohort=study.cohort)

@@ -1,4 +1,4 @@
-"""Our numbers beside the paper's."""
+"""The study's numbers beside the paper's."""
 
 from analysis.report.blocks import Block, Caution, Paragraph, Section, Shown, table
 from analysis.report.numbers import NOTHING, interval, number

@@ -1,4 +1,4 @@
-"""What a reader wants first: did assistance help, how much, how sure."""
+"""The first answers of the report: did assistance help, how much, how sure."""
 
 import math
 
@@ -27,6 +27,7 @@ def answer_section(results: StudyResults) -> Section:
         blocks += [Paragraph(_sentence(c)) for c in chosen]
     else:
         blocks.append(Paragraph(_nothing_to_say(results)))
+    blocks += [Caution(u.sentence) for u in results.unfinished]
     blocks += [Caution(text) for text in _cautions(results)]
     if chosen:
         blocks.append(_picture(chosen))
@@ -46,7 +47,7 @@ def _chosen(results: StudyResults) -> tuple[PairedComparison, ...]:
 def _nothing_to_say(results: StudyResults) -> str:
     if any(part.role in ("demonstrator", "model") for part in results.frames.parts):
         return "The study has no condition without help to compare the assisted laps with."
-    return "In no condition of this study could anybody help, and it declares no comparison."
+    return "No condition of this study has an assistant, and it declares no comparison."
 
 
 def _fact(results: StudyResults, c: PairedComparison) -> Fact:
@@ -161,7 +162,7 @@ def _p(c: PairedComparison) -> str:
 
 
 def _corrected(c: PairedComparison) -> bool:
-    """Tell whether the corrected p is Wilcoxon's: with a margin, it is that of equivalence."""
+    """Return whether the corrected p is Wilcoxon's: with a margin, it is that of equivalence."""
     return math.isfinite(c.p_holm) and c.equivalence is None
 
 

@@ -58,7 +58,7 @@ def comparison_section(results: StudyResults) -> Section:
 
 
 def _undeclared(results: StudyResults) -> list[PairedComparison]:
-    """Return the pairs that have no place of their own, where their p may be corrected."""
+    """Return the pairs without a table of their own, where their p may be corrected."""
     declared = {
         frozenset((c.condition, c.reference)) for c in results.declared if c.outcome == "lap_time_s"
     }
@@ -85,8 +85,8 @@ _ABOUT_RULE = (
 
 _ABOUT_KS = (
     "Kolmogorov-Smirnov, lap times of every two conditions. It compares whole distributions and "
-    "assumes two separate groups; the paper used it on laps of the autonomous driver. Here both "
-    "samples come from the same people, so D and its p only describe."
+    "assumes two separate groups. Here both samples come from the same "
+    "people, so D and its p only describe."
 )
 
 

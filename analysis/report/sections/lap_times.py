@@ -11,9 +11,11 @@ from analysis.tables.lap_times import lap_time_table
 
 
 def lap_time_section(results: StudyResults) -> Section:
-    """Return the paper's Figure 6 and its numbers, with every participant's line."""
+    """Return lap times by condition, every participant a line, and their numbers."""
     frames = results.frames
     times = lap_time_table(frames)
+    replicates = frames.study.protocol.replicates is not None
+    figure_6, their_speedup = _THEIRS if replicates else ("", "")
     known = times.dropna(subset=["paper_mean_s"])
     paper = dict(zip(known["condition"], known["paper_mean_s"], strict=True))
     said = "; ".join(
@@ -28,20 +30,24 @@ def lap_time_section(results: StudyResults) -> Section:
             Picture(
                 "lap_times",
                 "Lap times by condition: every participant a line, mean and standard deviation "
-                "beside it, unfinished laps as crosses where they ended (the paper's Figure 6).",
+                "beside it, unfinished laps as crosses where they ended"
+                f"{figure_6}.",
                 f"Lap times by condition: {said}.",
                 lap_time_figure(frames.laps, frames.parts, paper),
             ),
             table("lap_times", "Lap times of finished laps, in seconds. Unfinished laps and laps "
-                  "that were not driven are counted, not averaged.", times, _TIMES),
-            table("speedups", "Speedups over complete pairs. Percentages are reference / condition "
-                  "(the paper's 137%): above 100% the condition is faster. Intervals: 95%, of "
-                  "gain and mean of ratios from t, of the ratio of means after Fieller.",
+                  "that were not driven are counted, not averaged.",
+                  times if replicates else times.drop(columns=["paper_mean_s", "paper_sd_s"]),
+                  [*_TIMES, *(_PAPER if replicates else ())]),
+            table("speedups", "Speedups over complete pairs. Percentages are reference / condition"
+                  f"{their_speedup}: above 100% the condition is faster. Intervals: 95%, of gain "
+                  "and mean of ratios from t, of the ratio of means after Fieller.",
                   speedup_table(results.lap_times), _SPEEDUPS),
         ),
     )  # fmt: skip
 
 
+_THEIRS = (" (the paper's Figure 6)", " (the paper's 137%)")
 _TIMES = [
     Shown("condition", lambda r: r["condition"], words=True),
     Shown("n", lambda r: count(r["n"])),
@@ -52,6 +58,8 @@ _TIMES = [
     Shown("sd", lambda r: number(r["sd_s"])),
     Shown("median", lambda r: number(r["median_s"])),
     Shown("range", lambda r: interval(r["min_s"], r["max_s"])),
+]
+_PAPER = [
     Shown("paper: mean", lambda r: number(r["paper_mean_s"], 2)),
     Shown("paper: sd", lambda r: number(r["paper_sd_s"], 2)),
 ]

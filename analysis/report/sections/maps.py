@@ -12,11 +12,11 @@ from analysis.stats.result import TestResult
 
 
 def map_section(results: StudyResults) -> Section:
-    """Return the paper's Figure 7, and the shares behind it."""
+    """Return a map of where assistance was given, and the shares behind it."""
     frames, sections = results.frames, results.sections
     helped = [p.condition for p in frames.parts if p.role in ("demonstrator", "model")]
     if not helped:
-        nothing = Paragraph("In no condition of this study could anybody help.")
+        nothing = Paragraph("No condition of this study has an assistant.")
         return Section("assistance", "Where assistance was given", (nothing,))
     blocks: list[Block] = [
         *_map(results, helped),
@@ -34,11 +34,16 @@ def map_section(results: StudyResults) -> Section:
 
 
 def _map(results: StudyResults, helped: Sequence[str]) -> tuple[Block, ...]:
-    """Return the map and how far its sources overlap; why not, where nobody's place is known."""
+    """Return the map and how far its sources overlap; the reason where no position is known."""
     steps = results.records.steps
     placed = steps[["x_m", "y_m"]].notna().all(axis=1)
     if not placed.any():
-        return (Paragraph("No map: no position was recorded in any step."),)
+        why = "no position was recorded in any step"
+        if results.records.misplaced:
+            why = "the recorded positions do not fit the course (see Participants)"
+        return (Paragraph(f"No map: {why}."),)
+    gates = ", ".join(gate.name for gate in results.frames.study.course.gates)
+    figure_7 = "; the paper's Figure 7" if results.frames.study.protocol.replicates else ""
     known = steps.loc[placed & steps["helped"].notna(), ["condition", "participant"]]
     people = known.groupby("condition", observed=True)["participant"].nunique()
     n = ", ".join(f"{c}: {plural(int(people.get(c, 0)), 'participant')}" for c in helped)
@@ -46,9 +51,9 @@ def _map(results: StudyResults, helped: Sequence[str]) -> tuple[Block, ...]:
         Picture(
             "assistance_map",
             "Driven paths (grey) and smoothed density of the steps in which assistance counted, "
-            f"on one colour scale; each density integrates to 1 ({n}; the paper's Figure 7). "
+            f"on one colour scale; each density integrates to 1 ({n}{figure_7}). "
             "Steps of unfinished laps count too. Gaussian kernel, standard deviation "
-            f"{BANDWIDTH:g} m. S start, R1 and R2 gates, F finish.",
+            f"{BANDWIDTH:g} m. S start; gates {gates}.",
             f"Floor plans with driven paths and where assistance was given. {_most(results)}",
             assistance_map(steps, results.frames.study.course, helped),
         ),
@@ -72,7 +77,7 @@ def _overlap(found: TestResult | None) -> str:
 
 
 def _most(results: StudyResults) -> str:
-    """Say for every helped condition where its assistance was."""
+    """Return for every helped condition where its assistance was, in words."""
     said = []
     for condition, rows in results.sections.groupby("condition", sort=False):
         by_kind = rows.groupby("kind")["share_of_assistance_percent"].sum(min_count=1).dropna()

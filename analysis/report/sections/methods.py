@@ -1,10 +1,12 @@
-"""Methods, as text for a paper: what this study did, and nothing that it did not."""
+"""Methods, as text for a paper: only what this study did."""
 
 import math
 from collections.abc import Iterable, Iterator
 
 from analysis.comparisons import PairedComparison
+from analysis.frames import StudyFrames
 from analysis.maps import BANDWIDTH, CELL
+from analysis.order import driven_orders
 from analysis.outcomes import UNITS
 from analysis.report.blocks import Paragraph, Section
 from analysis.report.numbers import plural
@@ -16,7 +18,7 @@ from protocols.declared import Comparison
 
 
 def methods_section(results: StudyResults) -> Section:
-    """Return text that can be pasted into a paper; a sentence is there if what it says was done."""
+    """Return text that can be pasted into a paper; each sentence tells what was done."""
     parts = (_design, _declared, _comparisons, _models, _questionnaires, _maps, _model_quality)
     texts = [" ".join(part(results)) for part in parts]
     texts.append(f"Analysis: {_listed(analysis_versions())}.")
@@ -27,20 +29,18 @@ def methods_section(results: StudyResults) -> Section:
 def _design(results: StudyResults) -> Iterator[str]:
     study, flow = results.frames.study, results.flow
     protocol = study.protocol
-    laps = ", ".join(
-        f"{lap.condition}{' (practice)' if lap.practice else ''}" for lap in protocol.laps
-    )
     seed = "" if study.seed is None else f", seed {study.seed}"
     course = study.course.name
     yield f"Within-subject design; protocol {protocol.name!r} on course {course!r}{seed}."
-    yield f"Laps as planned: {laps}."
-    if any(lap.practice for lap in protocol.laps):
+    yield from _orders(results.frames)
+    if results.frames.practised:
         yield "Practice laps were not analysed."
-    yield (
-        f"Participants: {flow.planned} planned, {flow.recorded} recorded, {flow.analysed} analysed."
-    )
+    planned = "" if flow.planned is None else f"{flow.planned} planned, "
+    yield f"Participants: {planned}{flow.recorded} recorded, {flow.analysed} analysed."
     if flow.refused:
         yield f"Without consent, and not analysed: {flow.refused}."
+    if flow.consent_unknown:
+        yield f"Consent was not recorded of {flow.consent_unknown}, who are analysed."
     yield from _exclusion(results)
     if flow.laps[["time_limit", "withdrew", "unfinished_otherwise"]].to_numpy().any():
         yield (
@@ -48,6 +48,22 @@ def _design(results: StudyResults) -> Iterator[str]:
             "lap table, maps, shares by section and the model's calibration include the steps of "
             "unfinished laps."
         )
+
+
+def _orders(frames: StudyFrames) -> Iterator[str]:
+    """Say in which order laps were driven: as recorded, which need not be as planned."""
+    orders = driven_orders(frames)
+    if not orders:
+        return
+    (laps, people), *others = orders.most_common()
+    if not others:
+        yield f"Laps as driven: {', '.join(laps)}."
+        return
+    drove = "drove" if people > 1 else "participant drove"
+    yield (
+        f"Laps were driven in {len(orders)} orders; {people} of {orders.total()} {drove}: "
+        f"{', '.join(laps)}."
+    )
 
 
 def _exclusion(results: StudyResults) -> Iterator[str]:
@@ -59,11 +75,15 @@ def _exclusion(results: StudyResults) -> Iterator[str]:
         said.append(f"collided more than {plural(rules.max_collisions, 'time')}")
     if said:
         yield (
-            f"The protocol excludes from every analysis whoever {' or '.join(said)} (practice "
-            "apart)."
+            "The protocol excludes from every analysis participants who "
+            f"{' or '.join(said)} (practice apart)."
         )
     reasons = "; ".join(f"{reason}: {n}" for reason, n in excluded.items())
-    yield f"Excluded: {reasons}." if excluded else "Nobody was excluded."
+    if excluded:
+        yield f"Excluded: {reasons}."
+    elif results.frames.exclusions.looked:
+        yield "Nobody was excluded."
+    yield from (f"{remark}." for remark in results.frames.exclusions.remarks)
 
 
 def _declared(results: StudyResults) -> Iterator[str]:
@@ -151,7 +171,7 @@ def _models(results: StudyResults) -> Iterator[str]:
             "and Roger."
         )
     else:
-        yield "It took the place of a mixed model that could not be fitted."
+        yield "It replaced a mixed model that could not be fitted."
     if _used(results.contrasts):
         yield (
             "The same contrasts were computed from each participant's own laps, each with its own "

@@ -15,7 +15,7 @@ def model_section(results: StudyResults) -> Section:
     reliability = results.reliability
     reliability = reliability[reliability["condition"].isin(conditions)]
     auc = measures.groupby("condition", sort=False)["when_auc"].agg(["count", "median"])
-    said = "; ".join(
+    aucs = "; ".join(
         f"{condition} median AUC {number(row['median'], 3)} over {int(row['count'])} finished laps"
         for condition, row in auc.iterrows()
         if row["count"]
@@ -31,8 +31,8 @@ def model_section(results: StudyResults) -> Section:
                 "chance). Right: reliability, steps of all laps, unfinished ones too, pooled in "
                 "tenths of p. Predictions were recorded before "
                 "the model learnt from a step: they are out of sample. Laps before the first "
-                "demonstration are left out: there the model knows nothing and says so.",
-                f"Model quality: {said or 'nothing to compare'}.",
+                "demonstration are left out: there the model has learnt nothing.",
+                f"Model quality: {aucs or 'nothing to compare'}.",
                 model_figure(measures, reliability, taught),
             ),
             table("reliability", "Reliability of p(h = 1 | x), pooled over the steps of all laps.",

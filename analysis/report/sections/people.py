@@ -11,6 +11,7 @@ from analysis.stats.describe import describe
 
 def people_section(results: StudyResults) -> Section:
     """Return who was planned, recorded, excluded and why, and analysed; and the laps they drove."""
+    frames = results.frames
     blocks: list[Block] = [
         table("participants_flow", "Participants flow.", _stages(results.flow),
               [Shown("stage", lambda r: r["stage"], words=True),
@@ -21,6 +22,9 @@ def people_section(results: StudyResults) -> Section:
     if len(results.flow.withdrawals):
         blocks.append(_why_they_left(results.flow.withdrawals))
     blocks.append(Paragraph(_who(results.frames.participants)))
+    about_exclusion = Caution if frames.exclusions.by_rule else Paragraph
+    blocks += [about_exclusion(f"{remark}.") for remark in frames.exclusions.remarks]
+    blocks += [Caution(f"Repaired on reading: {remark}.") for remark in frames.study.remarks]
     blocks += [Caution(f"Not analysed: {what}.") for what in results.flow.left_out]
     blocks += [Caution(f"Not read, and treated as missing: {what}.") for what in _unread(results)]
     if results.records.without_steps:
@@ -38,11 +42,16 @@ def people_section(results: StudyResults) -> Section:
                 "from these columns cannot be computed, and is shown as missing."
             )
         )
+    blocks += [Caution(f"{_sentence(what)}.") for what in results.records.misplaced]
     blocks += [
         Caution(f"In the steps of {plural(laps, 'lap')}, {gap}.")
         for gap, laps in results.records.gaps.items()
     ]
     return Section("participants", "Participants", tuple(blocks))
+
+
+def _sentence(text: str) -> str:
+    return f"{text[:1].upper()}{text[1:]}"
 
 
 def _unread(results: StudyResults) -> tuple[str, ...]:
@@ -69,7 +78,7 @@ def _why_they_left(withdrawals: pd.DataFrame) -> Table:
         withdrawals,
         [
             Shown("participant", lambda r: str(r["participant"]), words=True),
-            Shown("lap (from 0)", lambda r: count(r["lap"])),
+            Shown("lap", lambda r: count(r["lap"])),
             Shown("condition", lambda r: str(r["condition"]), words=True),
             Shown("why", lambda r: _words(r["withdrawal"]), words=True),
         ],
@@ -82,16 +91,26 @@ def _words(said: object) -> str:
 
 def _stages(flow: Flow) -> pd.DataFrame:
     stages = [
-        ("planned", flow.planned),
-        ("− session not run", flow.not_run),
-        ("− session broke off with an error", flow.failed),
-        ("= recorded", flow.recorded),
-        ("− consent refused", flow.refused),
-        *((f"− excluded: {reason}", n) for reason, n in flow.excluded.items()),
-        ("= analysed", flow.analysed),
+        *_before(flow),
+        ("recorded", flow.recorded),
+        ("less: consent refused", flow.refused),
+        *((f"less: excluded: {reason}", n) for reason, n in flow.excluded.items()),
+        ("analysed", flow.analysed),
+        *([("of these, consent not recorded", flow.consent_unknown)] * bool(flow.consent_unknown)),
         ("of these, finished every planned lap (practice apart)", flow.completed),
     ]
     return pd.DataFrame(stages, columns=["stage", "participants"])
+
+
+def _before(flow: Flow) -> list[tuple[str, int]]:
+    """Return the stages up to the recorded ones; fewer where nothing says how many were planned."""
+    broke_off = ("less: session broke off with an error", flow.failed)
+    if flow.planned is None:
+        return [
+            ("begun (how many were planned is not said)", flow.recorded + flow.failed),
+            broke_off,
+        ]
+    return [("planned", flow.planned), ("less: session not run", flow.not_run), broke_off]
 
 
 def _who(people: pd.DataFrame) -> str:

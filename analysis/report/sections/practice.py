@@ -120,8 +120,8 @@ def _confounded(frames: StudyFrames) -> str:
     if others:
         return (
             f"Only {others} of {people} participants drove another order than the rest: with the "
-            "lap's place in the model, practice would hang on them. So practice and condition are "
-            "confounded."
+            "lap's place in the model, practice would depend on these few. So practice and "
+            "condition are confounded."
         )
     return (
         "The place of a lap in the session follows from its condition: the model matrix with both "

@@ -1,1 +1,1 @@
-"""The paper's Figures 3 and 4, drawn from what we recorded."""
+"""The paper's Figures 3 and 4, drawn from our records."""

@@ -1,4 +1,4 @@
-"""Whether p(h) means what it says."""
+"""Calibration of p(h)."""
 
 from collections.abc import Sequence
 
@@ -11,7 +11,7 @@ from lad.calibration import reliability
 
 
 def reliability_figure(runs: Sequence[Run]) -> Figure:
-    """Draw how often the demonstrator helped against p(h), and how many steps stand behind it."""
+    """Draw how often the demonstrator helped against p(h), and how many steps that were."""
     figure = new_figure(4.6)
     axes, counts = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
     axes.plot([0, 1], [0, 1], color=GREY, linewidth=0.8, linestyle=":", label="what it should be")

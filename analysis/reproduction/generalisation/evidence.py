@@ -21,7 +21,7 @@ GENERALISATION = "generalisation"
 
 @dataclass(frozen=True, slots=True)
 class Elsewhere:
-    """A course, and how the laps on it went.
+    """A course, and the results of the laps on it.
 
     Attributes
     ----------

@@ -19,7 +19,7 @@ def generalisation_section(laps: pd.DataFrame, shares: pd.DataFrame, taught_on: 
         The course that the models were taught on.
     """
     model = laps[laps["condition"] == "model"]
-    said = ", ".join(
+    differences = ", ".join(
         f"{r['course']} {number(r['over_limited_s'])} s" for r in model.to_dict("records")
     )
     return Section(
@@ -29,8 +29,8 @@ def generalisation_section(laps: pd.DataFrame, shares: pd.DataFrame, taught_on: 
             Paragraph(
                 "The paper did not test this. Each replicate drives other courses with its own "
                 f"model, which three demonstrations on {taught_on} have taught and which learns "
-                "nothing more. On the mirror image there is no right turn: the limitation "
-                "should hardly matter there, and help should stay away. On "
+                "nothing more. The mirror image has no right turn: the limitation "
+                "should hardly matter there, and the model should not help. On "
                 f"{taught_on} the laps with help are those of the same models."
             ),
             Picture(
@@ -38,7 +38,7 @@ def generalisation_section(laps: pd.DataFrame, shares: pd.DataFrame, taught_on: 
                 "Left: mean lap times by course and condition, with 95% interval. "
                 "Right: share of steps in which the model helped by kind of section, with 95% "
                 "interval; the line is where the demonstrator would have.",
-                f"Model minus limited: {said}.",
+                f"Model minus limited: {differences}.",
                 generalisation_figure(laps, shares),
             ),
             table(

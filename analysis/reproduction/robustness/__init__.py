@@ -1,1 +1,1 @@
-"""Whether the finding survives other parameters, and what simpler models make of the same laps."""
+"""Whether the finding holds with other parameters, and with simpler models on the same laps."""

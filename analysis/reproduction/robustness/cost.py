@@ -49,7 +49,7 @@ def costs(folder: Path) -> dict[str, float]:
 def step_cost(make_model: MakeModel, laps: Sequence[Demonstration]) -> float:
     """Return the mean wall time of predicting and learning a step of a fourth demonstration, us.
 
-    What a model does when the lap starts, such as fitting anew, is shared among the lap's steps.
+    What a model does when the lap starts, such as a new fit, is shared among the lap's steps.
     """
     model = make_model()
     for lap in laps[:TAUGHT]:

@@ -1,4 +1,4 @@
-"""What the comparison of variants stands on: their lap times, and their accuracy taught again."""
+"""The data of the comparison of variants: their lap times, and their accuracy taught again."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -30,7 +30,7 @@ Say = Callable[[str], None]
 
 @dataclass(frozen=True, slots=True)
 class Tried:
-    """A variant and what came of it.
+    """A variant and its results.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ def gather(folder: Path, jobs: int, say: Say) -> tuple[Tried, ...]:
     jobs
         Processes that teach, 1 or more.
     say
-        Told in a few words what is being done.
+        Called with a few words about what is being done.
 
     Raises
     ------

@@ -11,7 +11,7 @@ from analysis.reproduction.robustness.figure import robustness_figure
 
 
 def robustness_section(variants: pd.DataFrame, costs: Mapping[str, float]) -> Section:
-    """Return what other parameters and simpler models do to the finding.
+    """Return how other parameters and simpler models change the finding.
 
     Parameters
     ----------

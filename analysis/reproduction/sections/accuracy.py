@@ -13,7 +13,7 @@ from analysis.reproduction.figures.roc import roc_figure
 from analysis.reproduction.figures.sample_lap import sample_lap_figure
 
 SAMPLE = 0
-"""The run whose test lap is drawn: the first, whatever it looks like."""
+"""The run whose test lap is drawn: always the first."""
 
 
 def accuracy_section(evidence: Evidence) -> Section:
@@ -31,7 +31,7 @@ def _blocks(evidence: Evidence) -> list[Block]:
             f"{laps} recorded demonstrations in {n} random orders: a fresh model predicts each "
             "step, and then learns it; the last lap it only predicts. After n demonstrations means "
             f"in the lap that follows them. The {n} runs share the same {laps} laps, so their "
-            "spread tells of order, not of new laps."
+            "spread shows the effect of order, not of new laps."
         ),
         Picture(
             "roc",

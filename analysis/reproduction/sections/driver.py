@@ -45,7 +45,7 @@ def driver_section(evidence: Evidence) -> Section:
                 "over condition, ratio of means. "
                 f"Behind: condition minus {DEMONSTRATOR}, replicate by replicate, with the "
                 f"90% interval of the equivalence test (TOST, margin {MARGIN:g} s; p below .05 "
-                "says equivalent). KS: Kolmogorov-Smirnov against the demonstrator, as the paper "
+                "means equivalent). KS: Kolmogorov-Smirnov against the demonstrator, as the paper "
                 "tested; with enough laps it rejects any difference, so it has no verdict.",
                 times,
                 _COLUMNS,

@@ -70,7 +70,7 @@ def test_svg_carries_no_date(figures):
         {"participants": 2, "unfinished": frozenset((i, j) for i in (1, 2) for j in range(5))},
         {"participants": 2, "withdrew": {1: 1, 2: 1}},
     ],
-    ids=["one person", "equal answers", "nobody finished", "everybody left at once"],
+    ids=["one person", "equal answers", "no one finished", "all left at once"],
 )
 def test_every_figure_can_be_drawn_whatever_happened(make_study, events):
     """A figure without data says so; none of them fails or warns."""

@@ -39,7 +39,7 @@ def test_a_pause_between_the_two_is_delay():
 
 
 def test_overlap_is_negative_delay():
-    """A robot that acts for three steps while the human goes on: minus three steps."""
+    """A robot that acts for three steps while the human still acts: minus three steps."""
     assert functional_delay(lap("1111111111", "0001110000")) == pytest.approx(-0.3)
 
 

@@ -1,4 +1,4 @@
-"""What measures see of steps that somebody else recorded."""
+"""What measures see of steps that another program recorded."""
 
 import math
 

@@ -11,6 +11,7 @@ HEAD = """
 schema: 1
 name: other
 title: Another study
+replicates: soh-demiris-2013
 course: lab-office
 cohort: {participants: 2, driver: {use: DRIVER}}
 conditions:
@@ -73,10 +74,10 @@ def test_a_study_that_declares_nothing_is_exploratory(page):
 
 
 def test_a_study_without_assistance_has_no_maps(page):
-    """Two laps alone: nobody could help, and the page says so."""
+    """Two laps without an assistant: the page states it."""
     results, text = page("human", "free", "limited")
     assert results.overlap is None
-    assert "could anybody help" in text
+    assert "No condition of this study has an assistant" in text
 
 
 def test_a_repeated_limited_lap_identifies_practice(page):

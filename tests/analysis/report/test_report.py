@@ -70,7 +70,7 @@ def test_the_page_needs_no_network(report):
 
 
 def test_every_figure_has_an_alternative_text_with_numbers(report):
-    """Somebody who cannot see the figure learns what it shows."""
+    """A reader who cannot see the figure learns what it shows."""
     images = Page((report / "index.html").read_text()).images
     assert len(images) >= 6
     assert all(re.search(r"\d", image["alt"]) for image in images)
@@ -238,7 +238,7 @@ def test_a_withdrawal_is_shown_in_its_words(make_study):
 
 
 def test_without_withdrawals_there_is_no_table_of_them(report):
-    """Nobody left the uneventful study."""
+    """No participant left the uneventful study."""
     assert not (report / "tables" / "withdrawals.csv").exists()
 
 

@@ -34,7 +34,7 @@ def whole(write_made_up, tmp_path_factory):
     for experiment in full_experiments(folder, 1):
         if experiment.folder.name in wanted:
             path = folder / f"{experiment.folder.name}.yaml"
-            path.write_text(to_yaml(experiment.plan.study.protocol))
+            path.write_text(to_yaml(experiment.run.study.protocol))
             write_made_up(experiment.folder, str(path), 2)
             path.unlink()
     with pytest.MonkeyPatch.context() as patch:

@@ -22,7 +22,7 @@ def test_unrelated_items_are_not_reliable():
     "answers", [[[1], [2], [3]], [[1, 2], [2, 3]], [[3, 3], [3, 3], [3, 3]], np.empty((0, 4))]
 )
 def test_what_has_no_reliability_says_why(answers):
-    """One item, two people, no spread, nobody."""
+    """One item, two people, no spread, no people."""
     assert not cronbach_alpha(answers).computed
 
 

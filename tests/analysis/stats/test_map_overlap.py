@@ -26,7 +26,7 @@ def test_the_same_maps_overlap_fully():
 
 @pytest.mark.parametrize("n", [8, 20])
 def test_maps_in_different_places_are_told_apart(n):
-    """Help ten cells further on, for everybody: exact for few, drawn for many."""
+    """Help ten cells further on, for all people: exact for few, drawn for many."""
     found = map_overlap(*maps(n, 10), np.random.default_rng(0))
     assert found.p < 0.05
     assert found.notes[0].startswith("if the sources did not differ, 95% of overlaps")

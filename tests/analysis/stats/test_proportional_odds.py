@@ -59,7 +59,7 @@ def test_too_little_to_fit_says_why(a, b):
 
 
 def test_the_interval_is_of_participants():
-    """Doubling everybody's answers narrows the interval; the estimate stays."""
+    """Doubling all answers narrows the interval; the estimate stays."""
     rng = np.random.default_rng(5)
     a, b = rng.integers(2, 6, 14), rng.integers(1, 5, 14)
     once = proportional_odds(a, b, np.random.default_rng(0))

@@ -7,14 +7,14 @@ from analysis.tables.scales import scale_table
 
 
 def test_reverse_coded_items_are_turned(make_study):
-    """Everybody answers 5: turned items score 1, so the mean lies between, by their number."""
+    """All answers are 5: turned items score 1, so the mean is between, by their number."""
     study = make_study(answer=5)
     instrument = study.instruments[0]
     table = scale_table(study_frames(study), instrument).set_index(["subscale", "condition"])
     items = [i for i in instrument.items if i.subscale == "assistance"]
     expected = sum(1 if i.reverse else 5 for i in items) / len(items)
     assert table.loc[("assistance", "model-assisted"), "mean"] == pytest.approx(expected)
-    assert table.loc[("task", "baseline"), "note"] == "everybody scores the same"
+    assert table.loc[("task", "baseline"), "note"] == "all people have the same score"
 
 
 def test_incomplete_sheets_have_no_score(make_study):
@@ -35,7 +35,7 @@ def test_who_had_left_is_incomplete(make_study):
 
 
 def test_a_subscale_that_was_not_asked_has_no_row(make_study):
-    """After laps without assistance nobody is asked about it, so that there is no score."""
+    """After laps without assistance no one is asked about it, so there is no score."""
     study = make_study()
     table = scale_table(study_frames(study), study.instruments[0])
     asked = set(table.loc[table["subscale"] == "assistance", "condition"])

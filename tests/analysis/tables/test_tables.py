@@ -93,7 +93,7 @@ def test_questions_that_were_not_reached_are_counted(make_study):
 
 
 def test_agreement_starts_where_the_instrument_says(make_study):
-    """Everybody answers 4, the lowest point that counts: all agree; at 3 nobody does."""
+    """All answers are 4, the lowest point that counts: all agree; at 3 no one does."""
     study = make_study(answer=4)
     table = survey_table(study_frames(study), study.instruments[0])
     assert (table["agree_percent"] == 100).all()
@@ -155,7 +155,7 @@ def test_comparisons_that_cannot_be_computed_say_why(make_study):
 
 
 def test_a_condition_nobody_drove_leaves_its_row(make_study):
-    """Everybody left before the model's lap: the condition stays in the table with n = 0."""
+    """All left before the model's lap: the condition stays in the table with n = 0."""
     frames = study_frames(make_study(withdrew=dict.fromkeys(range(1, 5), 3)))
     table = lap_time_table(frames).set_index("condition")
     assert table.loc["model-assisted", "n"] == 0

@@ -61,7 +61,7 @@ def test_solving_gives_the_four_figures(learnt):
 
 
 def test_unfinished_laps_are_left_out(learnt):
-    """Nobody with a patience of half a minute finishes a limited lap that counts long laps."""
+    """No person with a patience of half a minute finishes a limited lap that counts long laps."""
     crowd, cell = Crowd(people=256), Cell(0.5, 0.6)
     solved = {"inexperience": Marginal(0.5, 1.5), "limit_pause_s": Marginal(2.0, 1.0)}
     patient = expected(cell, solved, learnt, crowd)

@@ -35,7 +35,7 @@ def test_a_study_prints_means_sds_gain_and_ratio():
 
 
 def test_practice_laps_are_left_out_and_unfinished_ones_are_gaps():
-    """The table has everybody, with what they finished."""
+    """The table has all people, with what they finished."""
     laps = pd.DataFrame(
         {
             "number": [1, 1, 1, 2],

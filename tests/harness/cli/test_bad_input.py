@@ -99,7 +99,7 @@ def test_a_folder_with_something_else_is_left_alone(lad_study, tmp_path):
 
 
 def test_a_study_without_a_session_is_not_reported(lad_study, tmp_path):
-    """A study directory in which nobody has driven yet gets no report."""
+    """A study directory without any session gets no report."""
     (tmp_path / "mine.yaml").write_text(SHORT)
     open_folder(tmp_path / "out", resolve_study("mine.yaml"), 0)
     said = lad_study("report", "out")

@@ -7,7 +7,6 @@ from functools import partial
 import pytest
 
 from harness.running import cluster
-from harness.running.cluster import UnfitError
 from harness.running.workers import MAX_DEATHS, Died, Failed
 from protocols.files.errors import InputError
 
@@ -26,7 +25,7 @@ def test_where_no_scheduler_answers_the_address_is_named(monkeypatch, address):
     """The address, and what one looks like, are said within the patience there is."""
     pytest.importorskip("distributed")
     monkeypatch.setattr(cluster, "PATIENCE_S", 0.5)
-    with socket.socket() as taken:  # bound, but nobody listens
+    with socket.socket() as taken:  # bound, but not listening
         taken.bind(("127.0.0.1", 0))
         address = address.format(free=taken.getsockname()[1])
         with pytest.raises(InputError) as error:
@@ -93,7 +92,7 @@ class Client:
         self.most = max(self.most, self.under_way)
         try:
             answer = self.happening[number] if number in self.happening else task(number)
-        except UnfitError as error:
+        except RuntimeError as error:
             answer = error
         return Future(answer, self.ended)
 
@@ -144,7 +143,7 @@ def test_a_worker_that_can_run_nothing_leaves(run):
     assert client.workers == ["tcp://a"]
     assert sorted(n for n, answer in told if answer == n) == list(range(20))
     died = [answer for _, answer in told if isinstance(answer, Died)]
-    assert set(died) == {Died("on node7: no such driver", retried=True)}
+    assert set(died) == {Died("on node7: no such driver", retried=True, unfit=True)}
     assert len(died) <= 2 * cluster.AHEAD
 
 
@@ -180,7 +179,7 @@ def test_failures_name_the_machine(run, answer, told):
 
 
 def test_when_no_worker_is_left_that_is_said_once(run, monkeypatch, caplog):
-    """The run waits, and goes on as soon as there is one."""
+    """The run waits, and continues as soon as there is one."""
     client, answers = run
     monkeypatch.setattr(cluster, "LOOK_S", 0.01)
     looks, held = [], []

@@ -1,4 +1,4 @@
-"""Worker processes: every number is answered once, whoever dies."""
+"""Worker processes: every number is answered once, whichever worker dies."""
 
 import multiprocessing
 import os
@@ -110,7 +110,7 @@ def test_the_same_processes_serve_again(tasks):
 
 
 def test_a_number_whose_process_was_killed_is_tried_again(tasks, tmp_path):
-    """A kill costs one attempt, is told of, and nobody else is run twice."""
+    """A kill costs one attempt and is reported; no other number is run twice."""
     answers = run(partial(tasks.killed, tmp_path, {2, 3}, 1), range(6))
     died = [(n, a) for n, a in answers if isinstance(a, Died)]
     assert sorted(n for n, _ in died) == [2, 3]

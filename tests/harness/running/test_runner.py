@@ -29,7 +29,7 @@ class Here:
 @pytest.fixture
 def here(monkeypatch):
     """Have sessions run in this process."""
-    monkeypatch.setattr(runner, "hire", lambda *_: nullcontext(Here()))
+    monkeypatch.setattr(runner, "open_workers", lambda *_: nullcontext(Here()))
 
 
 def record(folder):
@@ -82,7 +82,7 @@ def test_a_finished_study_needs_no_workers(here, make_run, tmp_path, monkeypatch
     run_study(run, out, 1)
     whole = record(out)
     (out / "laps.parquet").unlink()
-    monkeypatch.setattr(runner, "hire", None)
+    monkeypatch.setattr(runner, "open_workers", None)
     assert run_study(run, out, 1) == Outcome(2, 2, 0, ())
     assert record(out) == whole
 
@@ -153,7 +153,7 @@ def test_of_two_runs_that_start_together_the_second_leaves_no_byte(
 
 
 def test_a_foreign_session_is_resume_command(here, make_run, tmp_path):
-    """Somebody has put another seed's session there: the study ends as if nobody had."""
+    """Another seed's session was put there: the study ends as if it had not been."""
     ours, theirs = tmp_path / "ours", tmp_path / "theirs"
     run_study(make_run(participants=2), ours, 1)
     run_study(make_run(participants=2, seed=1), theirs, 1)
@@ -165,7 +165,7 @@ def test_a_foreign_session_is_resume_command(here, make_run, tmp_path):
 
 
 def test_a_write_error_loses_nothing_that_was_finished(here, make_run, tmp_path, monkeypatch):
-    """No space left: the run ends with the system's error, and the same call goes on later."""
+    """No space left: the run ends with the system's error, and the same call resumes later."""
     run, out = make_run(participants=4), tmp_path / "s"
     write, calls = runner.write_session, []
 
@@ -214,7 +214,7 @@ def test_another_study_is_refused_before_anything_starts(here, make_run, tmp_pat
     out = tmp_path / "s"
     run_study(make_run(participants=1), out, 1)
     whole = record(out)
-    monkeypatch.setattr(runner, "hire", None)
+    monkeypatch.setattr(runner, "open_workers", None)
     with pytest.raises(InputError, match="seed: 0 there, 1 wanted"):
         run_study(make_run(participants=2, seed=1), out, 1)
     with pytest.raises(InputError, match=r"driver\.use: 'some_drivers:straight' there"):
@@ -223,7 +223,7 @@ def test_another_study_is_refused_before_anything_starts(here, make_run, tmp_pat
 
 
 def test_a_part_that_cannot_be_made_leaves_no_folder(here, make_run, tmp_path):
-    """The rehearsal comes before the first byte."""
+    """The check of all parts comes before the first byte."""
     with pytest.raises(InputError, match="no such thing"):
         run_study(make_run(driver="{use: 'some_drivers:impossible'}"), tmp_path / "s", 1)
     assert not (tmp_path / "s").exists()

@@ -30,7 +30,7 @@ def sessions(run, numbers, jobs):
         return dict(run_sessions(workers, run, numbers))
 
 
-def test_a_session_is_a_function_of_plan_and_number(make_run):
+def test_a_session_is_a_function_of_run_and_number(make_run):
     """Here or in a worker, alone or after others, first or again: the same bytes."""
     run = portable(make_run(participants=4))
     here = {n: attempt(run, n).files for n in (3, 1, 3, 2, 4)}
@@ -55,7 +55,7 @@ def test_a_session_that_raises_fails_alone(make_run, unlucky, tmp_path):
 
 @pytest.mark.parametrize("end", ["sys.exit(3)", "raise KeyboardInterrupt"])
 def test_who_would_end_the_program_ends_a_session(make_run, tmp_path, end):
-    """The worker goes on, and the traceback says who it was; so it is in the rehearsal."""
+    """The worker continues, and the traceback names the cause; also in the check of all parts."""
     (tmp_path / "quitter.py").write_text(QUITTER.format(end=end))
     ended = sessions(make_run(driver="{use: 'quitter:quitter'}"), [1, 2], 1)
     assert {type(session) for session in ended.values()} == {Failed}
@@ -64,9 +64,10 @@ def test_who_would_end_the_program_ends_a_session(make_run, tmp_path, end):
         try_parts(workers, make_run(driver="{use: 'quitter:never'}"))
 
 
-def test_where_nobody_can_be_made_the_process_is_unfit(make_run):
+def test_where_nobody_can_be_made_the_process_is_unfit(make_run, tmp_path):
     """That is not the participant's failure: another process may run the session."""
-    answer = attempt(make_run(driver="{use: 'no_module:driver'}"), 3)
+    (tmp_path / "needy.py").write_text("import no_module\n")
+    answer = attempt(make_run(driver="{use: 'needy:driver'}"), 3)
     assert isinstance(answer, Died)
     assert "No module named 'no_module'" in answer.reason
     assert "\n" not in answer.reason
@@ -97,14 +98,13 @@ def test_warnings_come_back_with_the_session(make_run):
 @pytest.mark.parametrize(
     ("driver", "parts"),
     [
-        ("{use: 'no_module:driver'}", ["no_module", "allowed"]),
         ("{use: 'some_drivers:none_such'}", ["some_drivers", "none_such"]),
         ("{use: 'some_drivers:impossible'}", ["ValueError: no such thing", "some_drivers.py"]),
         ("{use: human, options: {speed: 9}}", ["speed"]),
     ],
 )
 def test_a_part_that_cannot_be_made_is_an_input_fault(make_run, driver, parts):
-    """The rehearsal is held where the sessions are run, and its faults come back as one line."""
+    """The parts are checked where the sessions are run, and faults come back as one line."""
     with open_workers(1) as workers, pytest.raises(InputError) as error:
         try_parts(workers, make_run(driver=driver))
     for part in parts:
@@ -112,8 +112,8 @@ def test_a_part_that_cannot_be_made_is_an_input_fault(make_run, driver, parts):
     assert "\n" not in str(error.value)
 
 
-def test_a_plan_that_can_be_carried_out_passes_the_rehearsal(make_run):
-    """The workers that rehearsed go on to run the sessions."""
+def test_a_run_whose_parts_can_be_made_passes_the_check(make_run):
+    """The workers that checked the parts also run the sessions."""
     run = make_run()
     with open_workers(1) as workers:
         try_parts(workers, run)

@@ -1,4 +1,4 @@
-"""What a person lived through follows from the record of the laps."""
+"""A person's experience follows from the record of the laps."""
 
 from dataclasses import replace
 
@@ -51,8 +51,8 @@ def lap(row, control=("driver",) * 4, arbitrated_w=(0.0,) * 4):
     )
 
 
-def test_times_are_held_against_ones_own_baseline():
-    """The yardstick is the person's own free lap, not the familiarisation before it."""
+def test_times_are_compared_with_the_persons_own_baseline():
+    """The reference is the person's own free lap, not the familiarisation before it."""
     practice = replace(FREE, practice=True, duration_s=90.0)
     experience = experience_of([lap(practice), lap(FREE), lap(HELPED)])
     assert (experience.lap_time, experience.baseline_time) == (50.0, 40.0)

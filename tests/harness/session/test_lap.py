@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from harness.session.arbitration import takeover
-from harness.session.clock import VirtualClock
+from harness.session.clock import LapStoppedError, Timing, VirtualClock
 from harness.session.lap import Lap, LapParts, Rules
 from harness.session.limitation import right_turn_limit, unlimited
 from harness.world.world import Observation
@@ -158,7 +158,7 @@ def test_the_model_gets_nineteen_numbers_and_never_the_room(stage):
     ],
 )
 def test_only_the_conditions_assistant_counts(stage, assistant, control, moved):
-    """Everybody answers in every lap; the condition decides whose answer moves the chair."""
+    """All parts answer in every lap; the condition decides whose answer moves the chair."""
     lap, _, keeper, _ = stage(assistant)
     lap.drive(keeper, VirtualClock())
     step = keeper.steps[3]
@@ -206,7 +206,7 @@ def test_a_participant_may_leave(stage):
 
     lap, _, keeper, _ = stage(driver=leave)
     ending = lap.drive(keeper, VirtualClock())
-    assert (ending.reason, ending.withdrawal, len(keeper.steps)) == ("withdrew", "I feel dizzy", 4)
+    assert (ending.reason, ending.note, len(keeper.steps)) == ("withdrew", "I feel dizzy", 4)
 
 
 def test_the_lap_ends_in_the_moment_of_crossing(stage):
@@ -225,3 +225,62 @@ def test_the_lap_ends_in_the_moment_of_crossing(stage):
     ending = lap.drive(keeper, VirtualClock())
     assert ending.reason == "finished"
     assert ending.t == pytest.approx(0.5, abs=1e-6)
+
+
+def test_a_silent_driver_stops(stage):
+    """Without a new command the last one stands for 0.3 s; then the chair is told to stand."""
+    lap, _, keeper, _ = stage(driver=lambda n: Command(0.5, 0.1) if n in {0, 6} else None)
+    lap.drive(keeper, VirtualClock())
+    speeds = [step.intent.v for step in keeper.steps]
+    assert speeds == [0.5, 0.5, 0.5, 0.5, 0.0, 0.0, 0.5, 0.5, 0.5, 0.5]
+    ages = [round(step.input_age_s, 6) for step in keeper.steps]
+    assert ages == [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.0, 0.1, 0.2, 0.3]
+
+
+def test_a_driver_who_never_says_anything_stands(stage):
+    """There is no command to hold before the first one."""
+    lap, _, keeper, _ = stage(driver=lambda _: None, hold_s=0.2)
+    lap.drive(keeper, VirtualClock())
+    assert {step.intent for step in keeper.steps} == {STILL}
+
+
+class StopsAfter:
+    """A clock that is stopped after some steps, and that returns how late each step was."""
+
+    def __init__(self, steps):
+        self.left = steps
+
+    def start(self, t=0.0):
+        return Timing(0.0, 0.0, 0.0)
+
+    def wait_until(self, t):
+        self.left -= 1
+        if not self.left:
+            raise LapStoppedError("stopped", "the chair is in the way")
+        return Timing(0.001 * self.left, 0.0, 0.5 * (self.left == 2))
+
+
+def test_who_holds_the_clock_can_stop_a_lap(stage):
+    """A stop ends the lap between two steps; reason and note are kept, and each step's timing."""
+    lap, _, keeper, _ = stage()
+    ending = lap.drive(keeper, StopsAfter(4))
+    assert (ending.reason, ending.note) == ("stopped", "the chair is in the way")
+    assert [step.timing.late_s for step in keeper.steps] == [0.0, 0.003, 0.002, 0.001]
+    assert ending.last is keeper.steps[-1].result
+
+
+def test_what_people_give_is_noted_before_it_acts(stage):
+    """The journal is told of a step's inputs before the world moves."""
+    lap, _, keeper, diary = stage("demonstrator")
+
+    class Notes:
+        def tick(self, command, demonstrator, timing):
+            diary.append(("note", command, demonstrator, timing))
+
+    lap._journal = Notes()
+    lap.drive(keeper, VirtualClock())
+    notes = [
+        i for i, entry in enumerate(diary) if entry == ("note", Command(0.7, -0.5), HELP, None)
+    ]
+    assert len(notes) == len(keeper.steps) == 10
+    assert all(diary[i + 1] == "step" for i in notes)

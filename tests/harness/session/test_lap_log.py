@@ -46,8 +46,15 @@ def step(**changes):
         "arbitrated": Command(0.7, -0.15),
         "executed": Command(0.7, -0.15),
         "result": here,
+        "input_age_s": 0.0,
+        "timing": None,
     }
     return Step(**{**usual, **changes})
+
+
+def ending(reason, t, gates, note=None):
+    """Return how a lap ended."""
+    return Ending(reason, t, gates, note, seen(1.0, 2.0))
 
 
 @pytest.fixture
@@ -78,7 +85,7 @@ def test_a_demonstration_records_signal_and_command(written):
 
 
 def test_the_model_is_recorded_while_it_only_watches(written):
-    """p(h), mean and variance stand in every step, whoever drives."""
+    """p(h), mean and variance are in every step, with any driver."""
     row = written(step())[0]
     assert (row["p_help"], row["mean_v"], row["mean_w"], row["variance"]) == (0.25, 0.1, -0.4, 0.02)
 
@@ -105,7 +112,7 @@ def test_stretches_are_counted_once():
     """Two unbroken stretches of help are two interventions, however long each is."""
     control = ["driver", "model", "model", "driver", "model"]
     row = summary(
-        lap_of(control, [True, True, False, False, True]), Ending("finished", 0.46, 3), 0.1
+        lap_of(control, [True, True, False, False, True]), ending("finished", 0.46, 3), 0.1
     )
     assert (row["interventions"], row["collisions"]) == (2, 2)
     assert row["assisted_fraction"] == pytest.approx(0.6)
@@ -116,7 +123,7 @@ def test_stretches_are_counted_once():
 @pytest.mark.parametrize("reason", ["time_limit", "withdrew"])
 def test_an_unfinished_lap_has_no_lap_time(reason):
     """How long an unfinished lap took is its duration, never its lap time."""
-    row = summary(lap_of(["driver"], [False]), Ending(reason, 7.0, 1, "no"), 0.1)
+    row = summary(lap_of(["driver"], [False]), ending(reason, 7.0, 1, "no"), 0.1)
     assert (row["lap_time_s"], row["duration_s"], row["completed"]) == (None, 7.0, False)
     assert row["end_reason"] == reason
 
@@ -128,5 +135,5 @@ def test_stretches_agree_with_counting_by_hand(contact):
         now and not before
         for before, now in zip([False, *contact][: len(contact)], contact, strict=True)
     )
-    row = summary(lap_of(["driver"] * len(contact), contact), Ending("time_limit", 1.0, 0), 0.1)
+    row = summary(lap_of(["driver"] * len(contact), contact), ending("time_limit", 1.0, 0), 0.1)
     assert row["collisions"] == by_hand

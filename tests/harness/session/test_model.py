@@ -34,13 +34,13 @@ def test_what_is_saved_is_the_model():
     ("use", "options", "part"),
     [
         ("nowhere.at:all", {}, "nowhere"),
+        ("subprocess:run", {"args": "true", "shell": True}, "subprocess:run"),
         ("lad.lad_assistant:Missing", {}, "Missing"),
-        ("lad.lad_assistant:LADAssistant", {"size": 3}, "size"),
-        ("lad.command:Command", {"v": 1, "w": 2}, "assist"),
+        ("linear", {"size": 3}, "size"),
     ],
 )
 def test_a_model_that_cannot_be_made_is_said_in_one_line(use, options, part):
-    """A dotted path that leads nowhere, a wrong option, or no assistant: named in one line."""
+    """A name that is nobody's, or a wrong option: named in one line."""
     with pytest.raises(InputError) as fault:
         make_model(ModelChoice(use=use, options=options))
     assert part in str(fault.value)

@@ -21,7 +21,7 @@ def run(**cohort):
     return StudyRun(replace(study, protocol=protocol), 0)
 
 
-def test_impairments_wrap_whoever_drives():
+def test_impairments_wrap_any_driver():
     """The person's own impairment is around the driver; without one the driver is as it is."""
     for impairments, kind in (
         ([], HumanDriver),
@@ -42,11 +42,11 @@ def test_enlarging_a_study_leaves_everybody_their_body():
 
 
 def test_a_mistake_shows_before_anything_runs():
-    """An impairment nobody of the first session has is tried all the same."""
+    """An impairment that the first participant does not have is tried, too."""
     rare = [{"use": "tremor", "share": 1e-9, "options": {"frequency": 5}}]
     with pytest.raises(InputError, match="option 'frequency' does not exist"):
         make_every_part(run(impairments=rare))
-    with pytest.raises(InputError, match="cannot import 'nobody'"):
+    with pytest.raises(InputError, match="no impairment is called 'nobody:knows'"):
         make_every_part(run(impairments=[{"use": "nobody:knows", "share": 0.0}]))
 
 

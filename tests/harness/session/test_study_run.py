@@ -1,4 +1,4 @@
-"""A plan that can be carried out anywhere."""
+"""A run that does not depend on the machine."""
 
 import pytest
 
@@ -8,7 +8,7 @@ from protocols.files.errors import InputError
 LOG = "t_s,v_m_s,w_rad_s\n0.0,0.3,0.0\n0.25,0.1,-0.5\n"
 
 
-def test_a_command_log_becomes_part_of_the_plan(make_run, tmp_path):
+def test_a_command_log_becomes_part_of_the_run(make_run, tmp_path):
     """Its commands replace the file's name; the file is not needed any more."""
     (tmp_path / "log.csv").write_text(LOG)
     run = portable(make_run(driver="{use: scripted, options: {file: log.csv}}"))
@@ -36,7 +36,7 @@ def test_a_log_that_cannot_be_replayed_is_named(make_run, tmp_path, text, parts)
         assert part in str(error.value)
 
 
-def test_other_plans_stay_as_they_are(make_run, tmp_path):
+def test_other_runs_stay_as_they_are(make_run, tmp_path):
     """Only the folder becomes absolute: a worker may stand elsewhere."""
     run = make_run(driver="{use: 'some_drivers:straight', options: {file: log.csv}}")
     assert portable(run) == run

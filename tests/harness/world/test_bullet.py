@@ -218,7 +218,7 @@ def test_runs_repeat_to_the_last_bit():
 
 
 def test_the_urdf_has_the_chairs_size():
-    """What collides is the footprint everybody else reckons with; wheels are where they belong."""
+    """What collides is the footprint that all other code uses; wheels are where they belong."""
     root = ET.fromstring(files("harness").joinpath("assets", "wheelchair.urdf").read_text())  # noqa: S314 - our own file
     chassis = root.find("link[@name='chassis']")
     collision = next(c for c in chassis.findall("collision") if c.find("geometry/box") is not None)

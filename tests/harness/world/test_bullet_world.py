@@ -202,7 +202,7 @@ def test_the_chair_does_not_leap_off_when_it_comes_free(world):
 
 
 def test_the_guard_keeps_wild_laps_clean(world):
-    """In the physics too: 40 s of held full-speed commands, guarded, touch nothing."""
+    """In the physics too: 40 s of constant full-speed commands, guarded, touch nothing."""
     for seed in range(3):
         rng = np.random.default_rng(seed)
         world.reset(np.random.default_rng(seed))

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from harness.world.bullet_caster import BulletCaster
 from harness.world.laser import (
     ACCURACY,
     FULL_STEPS,
@@ -16,6 +17,7 @@ from harness.world.laser import (
     deviation,
     ray_bearings,
 )
+from harness.world.ray_sweep import RaySweep
 from lad.inputs import N_SEGMENTS
 from protocols.course.obstacles import Box, obstacle_boxes
 from protocols.load import load_course
@@ -125,7 +127,7 @@ def test_few_rays_stand_for_the_segments_they_are_nearest_to():
 
 def test_what_is_lower_than_the_laser_is_not_seen():
     """A threshold on the floor is below the plane of the rays, for both casters."""
-    for caster in ("sweep", "pybullet"):
+    for caster in (RaySweep, BulletCaster):
         rng = np.random.default_rng(10)
         low, _ = Laser(_ahead(1.0, LASER_HEIGHT - 0.01), 181, caster).scan(ORIGIN, rng)
         assert (low == LASER_RANGE).all()
@@ -136,6 +138,6 @@ def test_what_is_lower_than_the_laser_is_not_seen():
 def test_pybullets_rays_stay_selectable():
     """With the other caster the same scan comes out."""
     boxes = obstacle_boxes(load_course("lab-office"))
-    a, _ = Laser(boxes, 180, "sweep").scan(ORIGIN, np.random.default_rng(11))
-    b, _ = Laser(boxes, 180, "pybullet").scan(ORIGIN, np.random.default_rng(11))
+    a, _ = Laser(boxes, 180, RaySweep).scan(ORIGIN, np.random.default_rng(11))
+    b, _ = Laser(boxes, 180, BulletCaster).scan(ORIGIN, np.random.default_rng(11))
     assert a == pytest.approx(b, abs=1e-3)

@@ -68,7 +68,7 @@ def _wall_ahead(distance, tilt=0.0):
 
 
 def test_full_speed_from_anywhere_never_touches():
-    """Held commands of all kinds, from 150 places on the course: the guard keeps it off."""
+    """Constant commands of all kinds, from 150 places on the course: the guard keeps it off."""
     rng = np.random.default_rng(0)
     for _ in range(150):
         toy = Toy(GUARD, TABLE, _free_pose(rng))
@@ -125,7 +125,7 @@ def test_the_guard_only_takes_away(seed, v, w, moving):
 @pytest.mark.parametrize("gap", [0.04, 0.1])
 @pytest.mark.parametrize("side", [1, -1])
 def test_driving_along_a_wall_is_let_alone(gap, side):
-    """Parallel to a wall, 4 cm away, full speed is nobody's business."""
+    """Parallel to a wall, 4 cm away, full speed is let through."""
     wall = [Box(0.0, side * (WIDTH / 2 + gap + 0.05), 0.0, 40.0, 0.1, 1.0, "wall")]
     command = Command(0.7, 0.0)
     guard = Safeguard(wall, PERIOD)

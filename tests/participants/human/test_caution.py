@@ -39,7 +39,7 @@ def test_the_nearer_the_wall_the_slower_and_in_time():
 
 
 def test_a_narrow_place_is_passed_slowly():
-    """Between walls one slows down more the more room one likes, but goes on."""
+    """Between walls a person slows down more with a larger clearance, but does not stop."""
     field = corridor(0.5)
     calm, timid = (slowed(field, Command(0.6, 0.0), margin).v for margin in (0.15, 0.4))
     assert CREEP <= timid < calm <= 0.6

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from participants.human.corners import sharp_corners
-from participants.planning.route import Route, plan_route
+from protocols.course.route import Route, plan_route
 
 
 def way(*turns):

@@ -1,4 +1,4 @@
-"""Whole laps by human-like drivers: everybody finishes, everybody in their own way."""
+"""Whole laps by human-like drivers: all finish, and no two drive alike."""
 
 import numpy as np
 import pytest
@@ -43,7 +43,7 @@ def sessions(lab_office, room, limitation):
 
 
 def test_everybody_finishes_unharmed(sessions):
-    """No lap ends unfinished, and hardly anybody touches anything."""
+    """No lap ends unfinished, and contacts are rare."""
     laps = [lap for session in sessions for lap in session]
     assert all(lap.finished for lap in laps)
     assert sum(lap.contacts for lap in laps) <= 2
@@ -121,7 +121,7 @@ def test_the_same_numbers_make_the_same_lap(lab_office, room):
     [Pose(0.14, -0.2, -2.2), Pose(1.42, -0.12, -2.47), Pose(2.2, -0.1, 1.9), Pose(0.9, 0.2, -2.8)],
 )
 def test_handed_back_at_an_odd_pose_one_still_finishes(lab_office, room, limitation, pose):
-    """Facing the wrong way, near obstacles, with slow right turns: one gets free and goes on."""
+    """Facing the wrong way, near obstacles, with slow right turns: the driver gets free."""
     driver = person(lab_office, 4)
     driver.start_lap(2, np.random.default_rng(0))
     assert room.lap(driver, limitation=limitation, pose=pose).finished

@@ -11,7 +11,7 @@ LEFT = Corner(8.0, 9.0, 2.0)
 
 
 def hesitation(believed, pause=10.0, exponent=0.5):
-    """Return the doubt of a person who believes that the chair obeys so far to the right."""
+    """Return the hesitation of a person who believes that the chair obeys so far to the right."""
     response = TurnResponse(1.0)
     response.right = believed
     return Hesitation(pause, exponent, response)

@@ -38,5 +38,5 @@ def test_feeling_unwell_is_rare_and_has_no_memory():
 
 
 def test_the_same_numbers_make_the_same_lap():
-    """When somebody leaves follows from the lap's generator."""
+    """When a person leaves follows from the lap's generator."""
     assert left(50.0, 3) == left(50.0, 3)

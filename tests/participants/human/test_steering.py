@@ -12,7 +12,7 @@ from participants.human.corners import sharp_corners
 from participants.human.practice import Skill
 from participants.human.steering import Situation, intend
 from participants.human.turn_response import TurnResponse
-from participants.planning.route import Route
+from protocols.course.route import Route
 
 TRAITS = typical_traits()
 SKILLED = Skill(way=1.0, corner=1.0, pause=0.0)
@@ -27,10 +27,10 @@ def route():
 
 
 def limited():
-    """Return the knowledge of somebody whose right turns give 0.3 of what is asked."""
+    """Return the knowledge of a person whose right turns give 0.3 of what is asked."""
     response = TurnResponse(1.0)
     for _ in range(200):
-        response.feel(Command(0.0, -0.5), Command(0.0, -0.15), 0.1, trusted=True)
+        response.observe(Command(0.0, -0.5), Command(0.0, -0.15), 0.1, trusted=True)
     return response
 
 
@@ -67,7 +67,7 @@ def test_a_limited_person_pushes_the_stick_to_its_end(route):
     traits = replace(TRAITS, limit_push=1.0)
     now = Situation(arc=1.0, speed=0.2, error=-0.3, corner=None)
     assert intend(traits, SKILLED, limited(), route, now).w < -0.5
-    other = replace(now, error=0.3)
+    other = now._replace(error=0.3)
     free = intend(traits, SKILLED, TurnResponse(1.0), route, other)
     assert intend(traits, SKILLED, limited(), route, other).w == free.w
 

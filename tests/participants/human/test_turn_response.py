@@ -9,15 +9,15 @@ from participants.human.turn_response import LEAST, TurnResponse
 def drive(response, asked, share, seconds, *, trusted=True):
     """Ask for a turn rate for a while and get a share of it."""
     for _ in range(int(seconds * 10)):
-        response.feel(Command(0.0, asked), Command(0.0, share * asked), 0.1, trusted)
+        response.observe(Command(0.0, asked), Command(0.0, share * asked), 0.1, trusted)
 
 
 def test_a_limited_side_is_noticed_and_the_other_is_not():
     """After some seconds of right turns at 0.3 of the rate, right is believed to be 0.3."""
     response = TurnResponse(1.0)
     drive(response, -0.5, 0.3, 10.0)
-    assert response.of(-0.1) == pytest.approx(0.3, abs=0.02)
-    assert response.of(0.1) == 1.0
+    assert response.share_for(-0.1) == pytest.approx(0.3, abs=0.02)
+    assert response.share_for(0.1) == 1.0
 
 
 def test_slow_learners_take_longer():

@@ -20,7 +20,7 @@ def test_shares_are_probabilities():
 
 
 def test_everybody_and_nobody():
-    """A share of 1 is everybody, of 0 nobody."""
+    """A share of 1 is all participants, of 0 none."""
     for seed in range(50):
         rng = np.random.default_rng(seed)
         all_of_them = assigned((ImpairmentChoice(use="tremor", share=1.0),), rng)
@@ -39,12 +39,12 @@ def test_an_impairment_changes_nobody_otherwise():
 
 def test_the_record_keeps_the_severity():
     """Among the traits, for those who have an impairment."""
-    everybody = Cohort(impairments=(ImpairmentChoice(use="weakness", severity=0.7),))
-    assert draw_person(everybody, np.random.default_rng(0)).as_numbers()[SEVERITY] == 0.7
+    weak = Cohort(impairments=(ImpairmentChoice(use="weakness", severity=0.7),))
+    assert draw_person(weak, np.random.default_rng(0)).as_numbers()[SEVERITY] == 0.7
     assert SEVERITY not in draw_person(Cohort(), np.random.default_rng(0)).as_numbers()
 
 
 def test_nobody_has_two():
-    """Shares that add up to more than everybody are refused."""
+    """Shares that add up to more than 1 are refused."""
     with pytest.raises(ValidationError, match=r"add up to 1\.1; allowed: 1 at most"):
         Cohort(impairments=(TREMOR, ImpairmentChoice(use="weakness", share=0.8)))

@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from protocols.course.schema import Course
+from protocols.load import load_course
 
 RING: dict[str, Any] = {
     "schema": 1,
@@ -41,3 +42,9 @@ def ring() -> dict[str, Any]:
 def ring_course() -> Course:
     """Return the course as it is."""
     return Course.model_validate(RING)
+
+
+@pytest.fixture(scope="session")
+def lab_office() -> Course:
+    """Return the shipped default course."""
+    return load_course("lab-office")

@@ -1,4 +1,4 @@
-"""A course that nobody could drive is refused, and why is said."""
+"""A course that cannot be driven is refused, with the reason."""
 
 import math
 

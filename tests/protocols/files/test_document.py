@@ -1,5 +1,7 @@
 """YAML files as plain data that knows its lines, and every way a file can be no such thing."""
 
+import time
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -73,9 +75,9 @@ def test_faults_come_in_the_order_of_the_file():
     [
         (b"", "f.yaml:1: the file is empty"),
         (b"# only a comment\n", "f.yaml:1: the file is empty"),
-        (b"a: [1\nb: 2\n", "f.yaml:2: not YAML: expected ',' or ']'"),
-        (b"a: 1\nb:\n\t- c\n", "f.yaml:3: not YAML: found character '\\t'"),
-        (b"a: 1\nb: c: d\n", "f.yaml:2: not YAML: mapping values are not allowed here"),
+        (b"a: [1\nb: 2\n", "f.yaml:2: not YAML: did not find expected ',' or ']'"),
+        (b"a: 1\nb:\n\t- c\n", "f.yaml:3: not YAML: found character that cannot start any token"),
+        (b"a: 1\nb: c: d\n", "f.yaml:2: not YAML: mapping values are not allowed in this context"),
         (b'a: "open\n', "f.yaml:1: not YAML: found unexpected end of stream"),
         (b"a: 1\n---\nb: 2\n", "f.yaml:2: not YAML: but found another document"),
         (b"%FOO\n", "f.yaml:1: not YAML:"),
@@ -92,8 +94,12 @@ def test_faults_come_in_the_order_of_the_file():
         (b"a: !mine 1\n", "f.yaml:1: a: the tag"),
         (b"? [1, 2]\n: 3\n", "f.yaml:1: a field's name must be plain text"),
         (b"a: " + b"9" * 5000, "is not a number"),
-        (b'a: "\\ud800"\n', "half a surrogate pair"),
+        (b'a: "\\ud800"\n', "not YAML: found invalid Unicode character escape code"),
         (b"[" * 100_000, "nested too deeply"),
+        (b"- " * 60 + b"x", "f.yaml:1: nested too deeply; allowed: 50 levels"),
+        (b"a: *" + b"x" * 1_900_000, "f.yaml:1: not YAML: found undefined alias 'xxx"),
+        (b"a: !" + b"x" * 1_900_000, "f.yaml:1: a: the tag !xxx"),
+        (b"? " + b"x" * 1_900_000 + b"\n: &a [*a]", "anchor that contains itself"),
         (b"#" * (MAX_BYTES + 1), "bytes; a file may have"),
     ],
 )
@@ -102,6 +108,44 @@ def test_refuses_in_one_line(content: bytes, message: str):
     refused = _refused(content)
     assert message in refused
     assert "\n" not in refused
+    assert len(refused) < 300
+
+
+SLOW_ONES = {
+    "values": b"- 1\n" * 400_000,
+    "a list in one line": b"[" + b"1," * 900_000 + b"]",
+    "anchors": b"".join(b"- &a%d 1\n" % i for i in range(140_000)),
+    "fields": b"".join(b"f%d: 1\n" % i for i in range(250_000)),
+    "brackets": b"[" * MAX_BYTES,
+    "dashes": b"- " * (MAX_BYTES // 2),
+    "questions": b"? " * (MAX_BYTES // 2),
+    "quotes": b'"' * MAX_BYTES,
+    "numbers": b"a: " + b"1" * 1_900_000,
+    "nested aliases": b"a0: &a0 [1]\n"
+    + b"".join(b"a%d: &a%d [*a%d]\n" % (i, i, i - 1) for i in range(1, 5_000)),
+}
+
+
+@pytest.mark.parametrize("content", SLOW_ONES.values(), ids=SLOW_ONES)
+def test_too_much_is_refused_as_soon_as_it_is_seen(content: bytes):
+    """What is as large as a file may be, and means harm, is refused within seconds of work."""
+    begun = time.process_time()
+    assert len(_refused(content)) < 300
+    assert time.process_time() - begun < 5.0  # on a busy machine; one second on a quiet one
+
+
+def test_a_large_course_is_read_within_seconds():
+    """Ten thousand points, as many as a centreline may have."""
+    text = "".join(f"- [{i / 10}, {i * 0.37}]\n" for i in range(10_000))
+    begun = time.process_time()
+    assert len(parse(text.encode(), "f.yaml").data) == 10_000
+    assert time.process_time() - begun < 5.0
+
+
+def test_the_size_in_the_message_is_the_files():
+    """Also where only the beginning was read."""
+    with pytest.raises(InputError, match=r"f\.yaml: 50000000 bytes; a file may have 2000000"):
+        parse(b"#" * 9, "f.yaml", 50_000_000)
 
 
 def test_anchors_cannot_unfold_without_end():

@@ -46,5 +46,5 @@ def test_what_is_shown_validates(model: BaseModel):
 
 
 def test_a_missing_value_is_written_as_null():
-    """Nobody has to guess what a field without a value means."""
+    """A field without a value is written as null."""
     assert plain_yaml({"a": None, "b": [1, None]}) == "a: null\nb: [1, null]\n"

@@ -8,14 +8,14 @@ from pydantic import Field, model_validator
 from protocols.files.document import parse
 from protocols.files.errors import InputError
 from protocols.files.fault import Fault, InconsistentError
-from protocols.files.file_model import FileModel, Name, shipped_or_factory
+from protocols.files.file_model import FileModel, Name, part_name
 from protocols.files.validation import validate
 
 
 class _Wheel(FileModel):
     radius: Annotated[float, Field(gt=0, le=2)]
     kind: Literal["driven", "caster"] = "driven"
-    motor: shipped_or_factory("dc", "hub") = "dc"
+    motor: part_name("dc", "hub") = "dc"
 
 
 class _Chair(FileModel):
@@ -94,8 +94,8 @@ def test_a_right_file_becomes_a_model():
         ),
         (
             "kind: caster",
-            "motor: steam",
-            "5: wheels[1].motor: 'steam' is not known here; allowed: dc, hub, or package.module",
+            "motor: steam engine",
+            "5: wheels[1].motor: 'steam engine' names no part; allowed: dc, hub, another name of",
         ),
         ("name: chair", "name: chair\nseats: 1.5", "2: seats: must be a whole number; given 1.5"),
         (
@@ -164,8 +164,16 @@ def test_every_fault_is_kept():
     assert [fault.partition(": ")[0] for fault in _faults(text)] == ["chair.yaml:3", "chair.yaml:5"]
 
 
+@pytest.mark.parametrize("name", ['"os:path\\n"', "'os:'", ":path", "a:b:c", "../a:b", "a" * 201])
+def test_what_cannot_be_a_parts_name_is_refused(name: str):
+    """A name's form is checked to its last character."""
+    (fault,) = _faults(_GOOD.replace("kind: caster", f"motor: {name}"))
+    assert "names no part; allowed: dc, hub" in fault
+    assert len(fault) < 300
+
+
 def test_a_factory_may_stand_for_a_shipped_component():
-    """A dotted path with a colon is accepted; whether it exists is found out where it is used."""
+    """A module and a function are accepted; whether they exist is found out where it is known."""
     text = _GOOD.replace("kind: caster", "motor: my_lab.motors:steam_engine")
     chair = validate(parse(text.encode(), "chair.yaml"), _Chair)
     assert chair.wheels[1].motor == "my_lab.motors:steam_engine"

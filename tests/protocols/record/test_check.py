@@ -61,7 +61,7 @@ def test_a_session_of_another_study_is_told(
 
 
 def test_sessions_beyond_the_plan_are_told(folder: Path):
-    """Somebody has planned fewer, in study.yaml, than were recorded."""
+    """study.yaml was changed to fewer participants than were recorded."""
     head = folder / "study.yaml"
     head.write_text(head.read_text().replace("participants: 3", "participants: 2"))
     (fault,) = check_study(folder)
@@ -117,13 +117,13 @@ def test_an_unreadable_table_is_named(folder: Path):
 def test_rows_that_contradict_one_another_are_told(
     tmp_path: Path, make_session: Callable[..., SessionRecord]
 ):
-    """Counts in rows that differ from what is there, and rows of somebody else, are faults."""
+    """Counts in rows that differ from the files, and rows of another participant, are faults."""
     session = make_session(1)
     wrong_steps = replace(session.laps[0], row=replace(session.laps[0].row, steps=6))
     cases = {
-        "steps-0.parquet: 5 steps; the lap's row says 6": replace(
+        "steps-0.parquet: 5 steps; the lap's row has 6": replace(
             session, laps=(wrong_steps, session.laps[1])),
-        "lap_rows.parquet: 2 laps; the participant's row says [3]": replace(
+        "lap_rows.parquet: 2 laps; the participant's row has [3]": replace(
             session, participant=replace(session.participant, laps_driven=3)),
         "rows of P0002 in the session of P0001": replace(
             session, participant=replace(session.participant, participant="P0002")),

@@ -61,7 +61,7 @@ def test_another_study_is_refused_with_the_difference(folder: Path, plan: Resolv
 
 
 def test_a_folder_with_something_else_is_refused(tmp_path: Path, plan: ResolvedStudy):
-    """Somebody's files are not mixed with a study; a file is no folder."""
+    """Other files are not mixed with a study; a file is not a folder."""
     (tmp_path / "thesis.tex").write_text("precious")
     with pytest.raises(InputError, match=r"holds something else \(thesis.tex\)"):
         open_folder(tmp_path, plan, 0)
@@ -95,12 +95,12 @@ def test_two_runs_cannot_write_into_one_folder(folder: Path, plan: ResolvedStudy
         pytest.raises(InputError, match="another run is writing into it"),
         locked(folder),
     ):
-        pytest.fail("held twice")
+        pytest.fail("locked twice")
     with locked(folder):
         open_folder(folder, plan, 0)
 
 
-def test_a_folder_is_held_before_it_is_a_study(tmp_path: Path, plan: ResolvedStudy):
+def test_a_folder_is_locked_before_it_is_a_study(tmp_path: Path, plan: ResolvedStudy):
     """A lock alone is no study, and nothing else either: a run killed right then starts over."""
     with locked(tmp_path / "new"):
         assert [p.name for p in (tmp_path / "new").iterdir()] == [".lock"]
@@ -120,7 +120,7 @@ def test_a_file_system_without_locks_is_refused_by_name(
         pytest.raises(InputError, match=r"new: cannot be locked .*Function not implemented"),
         locked(tmp_path / "new"),
     ):
-        pytest.fail("held")
+        pytest.fail("locked")
 
 
 def test_a_folder_that_cannot_be_written_is_refused_by_name(
@@ -133,7 +133,7 @@ def test_a_folder_that_cannot_be_written_is_refused_by_name(
 
     monkeypatch.setattr(Path, "touch", touch)
     with pytest.raises(InputError, match=r"cannot be written: Read-only"), locked(tmp_path):
-        pytest.fail("held")
+        pytest.fail("locked")
 
 
 def _recorded(folder: Path, plan: ResolvedStudy, session: SessionRecord) -> None:
@@ -144,7 +144,7 @@ def _recorded(folder: Path, plan: ResolvedStudy, session: SessionRecord) -> None
 def test_a_lost_head_is_written_again_for_the_same_study(
     tmp_path: Path, plan: ResolvedStudy, make_session: Callable[..., SessionRecord]
 ):
-    """The sessions say what study they are of; for another study, they are somebody else's."""
+    """The sessions name their study; another study does not take them."""
     _recorded(tmp_path / "s", plan, make_session(1))
     (tmp_path / "s" / "study.yaml").unlink()
     with pytest.raises(InputError, match="holds something else"):

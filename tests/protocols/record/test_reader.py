@@ -154,7 +154,7 @@ def test_an_answer_off_the_scale_is_named(folder: Path, given: int):
 
 
 def test_answers_from_elsewhere_are_not_refused(folder: Path):
-    """Nobody can run that study again: it opens, and whoever reads the answers is told."""
+    """That study cannot be run again: it opens, and readers of the answers get a message."""
     header = folder / "study.yaml"
     header.write_text(
         re.sub("(?m)^seed: .*\norigin: .*$", "seed: null\norigin: elsewhere", header.read_text())
@@ -173,17 +173,20 @@ def test_answers_from_elsewhere_are_not_refused(folder: Path):
 
 
 @pytest.mark.parametrize(
-    ("seed", "said"),
+    ("origin", "said"),
     [
-        ("0", "has no row, but there are 3 sessions; the same `lad-study run` again makes it anew"),
-        ("null", "has no row; a report needs at least one participant and one lap"),
+        (
+            "simulated",
+            "has no row, but there are 3 sessions; the same `lad-study run` again rebuilds it",
+        ),
+        ("elsewhere", "has no row; a report needs at least one participant and one lap"),
     ],
 )
 @pytest.mark.parametrize("name", ["participants", "laps"])
-def test_a_table_without_a_row_says_what_to_do(folder: Path, name: str, seed: str, said: str):
+def test_a_table_without_a_row_says_what_to_do(folder: Path, name: str, origin: str, said: str):
     """To run a study that has its sessions, or was not run here, would be wrong advice."""
     header = folder / "study.yaml"
-    header.write_text(re.sub("(?m)^seed: .*$", f"seed: {seed}", header.read_text()))
+    header.write_text(re.sub("(?m)^origin: .*$", f"origin: {origin}", header.read_text()))
     path = folder / f"{name}.parquet"
     pq.write_table(pq.read_table(path)[:0], path)
     assert _refused(folder) == f"{path}: {said}"

@@ -1,4 +1,4 @@
-"""The command that goes on with a study directory."""
+"""The command that resumes the run of a study directory."""
 
 from pathlib import Path
 
@@ -17,7 +17,7 @@ def test_another_course_is_named():
 
 
 def test_what_does_not_ship_is_called_protocol(plan: ResolvedStudy):
-    """Somebody's own protocol, and a changed one under a shipped name."""
+    """A user's own protocol, and a changed one under a shipped name."""
     for change in ({"name": "mine"}, {"control_period_s": 0.2}):
         protocol = plan.protocol.model_copy(update=change)
         header = header_of(ResolvedStudy(protocol, plan.course, plan.instruments), 0)

@@ -49,7 +49,7 @@ def test_what_a_study_declares_is_in_its_methods_and_nothing_else(make_study, tm
     text = text_of(make_study(path, participants=4))
     assert "alike (lap_time_s, limited − free; confirmatory, family 'primary', equiv" in text
     assert "(TOST), with 90% intervals" in text
-    assert "excludes from every analysis whoever collided more than 40 times" in text
+    assert "from every analysis participants who collided more than 40 times" in text
     assert "Practice laps were not analysed." in text
     assert not re.search(r"map|p\(h|shadow|items|Cronbach|overlap", text)
     assert "bootstrap" not in text  # four people have no bootstrap interval

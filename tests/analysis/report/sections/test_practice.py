@@ -27,7 +27,7 @@ def test_why_there_is_no_model_is_true(make_study, unfinished, why):
 
 
 def test_laps_left_out_of_the_model_are_counted(make_study):
-    """Two unfinished laps of sixteen; numpy's own warnings are nobody's business."""
+    """Two unfinished laps of sixteen; numpy's own warnings are not shown."""
     study = make_study(participants=4, unfinished=frozenset({(1, 2), (2, 3)}))
     section = practice_section(analyse(study))
     text = remarks(section)

@@ -8,7 +8,8 @@ import pyarrow as pa
 import pytest
 
 from protocols.files.errors import InputError
-from protocols.record.elsewhere import LAPS, PARTICIPANTS, STEPS, SURVEYS, conform
+from protocols.record.elsewhere.conform import conform
+from protocols.record.elsewhere.rules import LAPS, PARTICIPANTS, STEPS, SURVEYS
 
 _PATH = Path("laps.parquet")
 _LAPS = {
@@ -26,7 +27,7 @@ def _laps(**columns: object) -> pa.Table:
 
 def test_minimal_laps_get_all_columns():
     """Five columns from pandas become the lap table: our order and types, the rest missing."""
-    table = conform(_laps(), LAPS, _PATH)
+    table = conform(_laps(), LAPS, _PATH).table
     assert table.column_names == [c.name for c in LAPS.columns]
     assert [f.type for f in table.schema] == [c.type for c in LAPS.columns]
     assert table["lap_time_s"].to_pylist() == [40, None, 42]
@@ -35,24 +36,24 @@ def test_minimal_laps_get_all_columns():
 
 def test_columns_of_ones_own_are_kept():
     """What we don't know stays, after what we do."""
-    assert conform(_laps(mood=["a", "b", "c"]), LAPS, _PATH).column_names[-1] == "mood"
+    assert conform(_laps(mood=["a", "b", "c"]), LAPS, _PATH).table.column_names[-1] == "mood"
 
 
 def test_gaps_as_pandas_writes_them_are_missing_values():
     """Integers with gaps come as floats with NaN; they become integers with missing values."""
-    table = conform(_laps(collisions=[0.0, float("nan"), 2.0]), LAPS, _PATH)
+    table = conform(_laps(collisions=[0.0, float("nan"), 2.0]), LAPS, _PATH).table
     assert table["collisions"].to_pylist() == [0, None, 2]
 
 
 def test_an_unfinished_lap_may_have_nan_for_its_time():
     """Writers other than pandas leave NaN where a number is missing; that is no wrong time."""
     laps = _laps().set_column(4, "lap_time_s", pa.array([40.0, float("nan"), 42.0]))
-    assert len(conform(laps, LAPS, _PATH)) == 3
+    assert len(conform(laps, LAPS, _PATH).table) == 3
 
 
 def test_categories_become_text():
     """A categorical column of pandas is text to us."""
-    table = conform(_laps(condition=pd.Categorical(_LAPS["condition"])), LAPS, _PATH)
+    table = conform(_laps(condition=pd.Categorical(_LAPS["condition"])), LAPS, _PATH).table
     assert table["condition"].to_pylist() == _LAPS["condition"]
 
 
@@ -82,13 +83,13 @@ def test_what_cannot_be_used_is_named(table: pa.Table, message: str):
 def test_our_own_tables_pass_unchanged(rules):
     """A table of this version's schema comes back as it is."""
     schema = pa.schema([pa.field(c.name, c.type, nullable=c.nullable) for c in rules.columns])
-    assert conform(schema.empty_table(), rules, _PATH).schema.equals(schema)
+    assert conform(schema.empty_table(), rules, _PATH).table.schema.equals(schema)
 
 
 @pytest.mark.parametrize("gap", [None, float("nan")])
 def test_a_measurement_may_be_missing(gap):
     """A null and a NaN in a required column of floats are the same gap."""
     steps = pa.table({"t_s": [0.0, 0.1], "x_m": pa.array([1.0, gap]), "y_m": [0.0, 0.0]})
-    x = conform(steps, STEPS, _PATH)["x_m"].to_pandas()
+    x = conform(steps, STEPS, _PATH).table["x_m"].to_pandas()
     assert x[0] == 1.0
     assert np.isnan(x[1])

@@ -1,20 +1,25 @@
 """A smooth way through a course by arc length: where to go, and how sharply it bends."""
 
 import math
+from bisect import bisect_left, bisect_right
 from functools import lru_cache
-from typing import NamedTuple
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from participants.planning.search import cheapest_path
+from lad.compiled import compiled
 from protocols.course.centreline import Centreline
+from protocols.course.chair_search import chair_path
 from protocols.course.gates import GateCounter
 from protocols.course.occupancy import occupancy
+from protocols.course.route_checks import NARROWEST, route_fault
 from protocols.course.schema import Course
-from protocols.files.errors import InputError
+from protocols.course.search import NoWayError, cheapest_path
 from protocols.pose import Pose
+from protocols.wheelchair import WIDTH
 
 SPACING = 0.05
 """Distance between a route's points, m."""
@@ -23,11 +28,11 @@ SMOOTHING = 0.2
 """Standard deviation of the Gaussian that smooths a path, m."""
 
 RUN_OUT = 1.0
-"""How far a route goes on straight past the last gate, m."""
+"""How far a route continues straight past the last gate, m."""
 
 
 class Progress(NamedTuple):
-    """Where one is on a route: arc length in m, and distance from it in m, left positive."""
+    """A place on a route: arc length in m, and distance from it in m, left positive."""
 
     arc: float
     offset: float
@@ -52,16 +57,21 @@ class Route:
         self.length = float(self.arcs[-1])
         tangents = np.gradient(points, axis=0)
         self.headings = np.unwrap(np.arctan2(tangents[:, 1], tangents[:, 0]))
+        # Looked up one at a time, plain numbers are ten times as fast as arrays.
+        self._arcs: list[float] = self.arcs.tolist()
+        self._headings: list[float] = self.headings.tolist()
+        self._xs: list[float] = points[:, 0].tolist()
+        self._ys: list[float] = points[:, 1].tolist()
 
     def locate(self, pose: Pose, gates_passed: int, near: float | None = None) -> Progress:
-        """Return the nearest point between the gates one is between.
+        """Return the nearest point of the route between the last gate passed and the next one.
 
         Parameters
         ----------
         pose
-            Where one is.
+            Where the chair is.
         gates_passed
-            How many gates lie behind; the answer is never past the next one.
+            How many gates the chair has passed; the answer is never past the next one.
         near
             Arc length a moment ago, m: the answer is then within 1 m of it, unless everything
             there is farther away than 1 m.
@@ -76,16 +86,31 @@ class Route:
 
     def point(self, arc: float) -> Pose:
         """Return the point at an arc length, clamped to the ends, and the direction there."""
+        i = bisect_right(self._arcs, arc) - 1
         return Pose(
-            float(np.interp(arc, self.arcs, self.points[:, 0])),
-            float(np.interp(arc, self.arcs, self.points[:, 1])),
-            float(np.interp(arc, self.arcs, self.headings)),
+            self._between(self._xs, i, arc),
+            self._between(self._ys, i, arc),
+            self._between(self._headings, i, arc),
         )
 
     def turn(self, start: float, end: float) -> float:
         """Return by how much the direction changes between two arc lengths, rad, left positive."""
-        a, b = np.interp([start, end], self.arcs, self.headings)
-        return float(b - a)
+        return self._heading(end) - self._heading(start)
+
+    def _heading(self, arc: float) -> float:
+        return self._between(self._headings, bisect_right(self._arcs, arc) - 1, arc)
+
+    def _between(self, values: list[float], i: int, arc: float) -> float:
+        """Interpolate as ``numpy.interp`` does, to the last bit; ``i`` is the point before."""
+        if i < 0:
+            return values[0]
+        if i >= len(values) - 1:
+            return values[-1]
+        before = self._arcs[i]
+        if before == arc:
+            return values[i]
+        slope = (values[i + 1] - values[i]) / (self._arcs[i + 1] - before)
+        return slope * (arc - before) + values[i]
 
     def _leg(self, gates_passed: int) -> tuple[float, float]:
         ends = (0.0, *self.gate_arcs)
@@ -94,21 +119,37 @@ class Route:
         return low, high
 
     def _nearest(self, pose: Pose, low: float, high: float) -> Progress | None:
-        first, last = np.searchsorted(self.arcs, [low - SPACING, high + SPACING])
+        first = bisect_left(self._arcs, low - SPACING)
+        last = bisect_left(self._arcs, high + SPACING)
         if first >= last:
             return None
-        dx, dy = (np.array(pose[:2]) - self.points[first:last]).T
-        i = int(np.argmin(dx * dx + dy * dy))
-        heading = self.headings[first + i]
-        along = dx[i] * math.cos(heading) + dy[i] * math.sin(heading)
-        across = dy[i] * math.cos(heading) - dx[i] * math.sin(heading)
-        arc = float(np.clip(self.arcs[first + i] + np.clip(along, -SPACING, SPACING), low, high))
-        return Progress(arc, math.copysign(math.hypot(dx[i], dy[i]), across))
+        i = _closest(self.points, first, last, pose.x, pose.y)
+        dx, dy = pose.x - self._xs[i], pose.y - self._ys[i]
+        cos, sin = math.cos(self._headings[i]), math.sin(self._headings[i])
+        along, across = dx * cos + dy * sin, dy * cos - dx * sin
+        arc = self._arcs[i] + min(max(along, -SPACING), SPACING)
+        return Progress(min(max(arc, low), high), math.copysign(math.hypot(dx, dy), across))
+
+
+@compiled
+def _closest(points: Any, first: int, last: int, x: float, y: float) -> Any:
+    """Return which of the points from ``first`` to before ``last`` is the nearest."""
+    nearest, least = first, np.inf
+    for i in range(first, last):
+        dx, dy = x - points[i, 0], y - points[i, 1]
+        square = dx * dx + dy * dy
+        if square < least:
+            nearest, least = i, square
+    return nearest
 
 
 @lru_cache(maxsize=16)
 def plan_route(course: Course, cell: float = 0.1) -> Route:
     """Plan a way through a course, once for each course.
+
+    It is the shortest way that keeps off obstacles, if the chair can take it: it is wide enough,
+    the chair can turn all along, no gate's post is in the way, and the way never turns back on the
+    spot. Where the chair cannot take it, another one is looked for nearby, then farther off.
 
     Parameters
     ----------
@@ -119,15 +160,48 @@ def plan_route(course: Course, cell: float = 0.1) -> Route:
 
     Raises
     ------
-    InputError
+    NoWayError
         When no path leads the chair through all gates.
     """
-    path = _run_out(_from_start(course, cheapest_path(course, occupancy(course, cell))))
+    raster = occupancy(course, cell)
+    faults: list[NoWayError] = []
+    for half, reach in ((WIDTH / 2, 1.5), (NARROWEST / 2 - cell * math.sqrt(0.5), 3.0)):
+        try:
+            path = cheapest_path(course, raster, half)
+            turning = chair_path(course, raster, path, _first_past(course, path), reach)
+        except NoWayError as error:
+            faults.append(error)
+            continue
+        for way in (path, turning):
+            route = _shaped(course, way)
+            if route is None:
+                faults.append(NoWayError(course.name, 0, "the way found misses one of the gates"))
+                continue
+            fault = route_fault(course, raster, route)
+            if fault is None:
+                return route
+            faults.append(fault)
+    raise faults[0]
+
+
+def _shaped(course: Course, cells: NDArray[np.float64]) -> Route | None:
+    """Return a path over cells as a smooth route; None when that misses a gate."""
+    path = _run_out(_from_start(course, cells))
     for points in (_smooth(path), _resampled(path)):
         arcs = gate_arcs(course, points)
         if len(arcs) == len(course.gates):
             return Route(points, arcs)
-    raise InputError(f"course {course.name!r}: the way found misses one of the gates")
+    return None
+
+
+def _first_past(course: Course, path: NDArray[np.float64]) -> list[int]:
+    """Return the index of the first point past each gate."""
+    counter, first = GateCounter(course), []
+    for i, (a, b) in enumerate(pairwise(path), start=1):
+        before = counter.passed
+        counter.advance((a[0], a[1]), (b[0], b[1]))
+        first += [i] * (counter.passed - before)
+    return first
 
 
 def centreline_route(course: Course) -> Route:
@@ -138,7 +212,7 @@ def centreline_route(course: Course) -> Route:
 
 
 def _run_out(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Go on past the end, in the direction of the last half metre."""
+    """Continue past the end, in the direction of the last half metre."""
     distances = np.hypot(*(points - points[-1]).T)
     before = points[np.flatnonzero(distances >= min(0.5, distances.max()))[-1]]
     direction = (points[-1] - before) / np.hypot(*(points[-1] - before))

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from participants.planning.footprint import DISC_RADIUS, SWING, disc_centres
+from protocols.course.footprint import DISC_RADIUS, SWING, disc_centres
 from protocols.wheelchair import FRONT, REAR, WIDTH
 
 

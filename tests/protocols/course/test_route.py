@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from participants.planning.route import Route, plan_route
-from participants.planning.surroundings import known_raster
+from protocols.course.occupancy import occupancy
+from protocols.course.route import Route, plan_route
 from protocols.pose import Pose
 from protocols.wheelchair import WIDTH
 
@@ -52,7 +52,7 @@ def test_the_plan_of_the_default_course_is_smooth_and_drivable(lab_office):
     steps = np.hypot(*np.diff(route.points, axis=0).T)
     assert steps.max() < 0.06
     assert np.abs(np.diff(route.headings)).max() < 0.3
-    raster = known_raster(lab_office)
+    raster = occupancy(lab_office)
     rooms = [raster.distance[raster.index(x, y)] for x, y in route.points]
     assert min(rooms) > WIDTH / 2
     assert len(route.gate_arcs) == 3

@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from analysis.exclusion import excluded_as_unfinished, without_the_rule
+from analysis.estimands import timed_laps, worst_differences
 from analysis.frames import study_frames
 from analysis.lap_time_test import lap_time_test
-from analysis.unfinished import timed_laps, worst_differences
+from analysis.outcome_exclusion import excluded_as_unfinished, without_the_rule
 from protocols.declared import Exclusion
 
 

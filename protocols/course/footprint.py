@@ -1,4 +1,4 @@
-"""The chair's outline covered by discs: a safe and quick stand-in for the rectangle."""
+"""The chair's outline covered by discs: a safe and quick replacement of the rectangle."""
 
 import math
 
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from protocols.wheelchair import FRONT, REAR, WIDTH
 
 ROWS, COLUMNS = 4, 2
-"""How many discs stand along and across the chair."""
+"""How many discs there are along and across the chair."""
 
 DISC_RADIUS = math.hypot((FRONT + REAR) / ROWS, WIDTH / COLUMNS) / 2
 """Each disc just covers its share of the rectangle, m; none reaches farther than this past it."""

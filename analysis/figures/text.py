@@ -1,0 +1,67 @@
+"""Text in figures is text: what people wrote stands as written, and where there is room for it."""
+
+import textwrap
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+
+@contextmanager
+def literal_text() -> Iterator[None]:
+    """Draw without reading dollar signs as mathematics, and without a word about missing glyphs.
+
+    A character that no font has is drawn as a box; the words stand in the tables, too.
+    """
+    plain = mpl.rc_context({"text.parse_math": False, "text.usetex": False})
+    with plain, warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Glyph .* missing from (current )?font")
+        yield
+
+
+def make_literal(figure: Figure) -> None:
+    """Take away, from every text that a figure has, what would make mathematics of it."""
+    for text in figure.findobj(Text):
+        text.set_parse_math(False)
+
+
+def wrapped(text: str, width: int, lines: int | None = None) -> str:
+    r"""Return text broken into lines; a word that is longer than one is broken, too.
+
+    Parameters
+    ----------
+    text
+        What was written.
+    width
+        Characters per line, 1 or more.
+    lines
+        How many at most; the last one ends with three dots then. None for all.
+
+    Examples
+    --------
+    >>> wrapped("human-assisted", 8)
+    'human-\nassisted'
+    >>> wrapped("a b c d e f", 3, lines=2)
+    'a b\n...'
+    """
+    return "\n".join(textwrap.wrap(text, width, max_lines=lines, placeholder="...") or [""])
+
+
+def label_lines(names: Sequence[str], inches: float, size: float = 9.0) -> list[str]:
+    """Return labels to stand side by side below an axis, broken so that none meets its neighbour.
+
+    Parameters
+    ----------
+    names
+        From left to right.
+    inches
+        Room for all of them.
+    size
+        Of the letters, points.
+    """
+    # DejaVu Sans is 0.6 times as wide as it is high, on the average.
+    room = int(72 * inches / (max(len(names), 1) * 0.62 * size))
+    return [wrapped(name, max(room, 3), lines=6) for name in names]
