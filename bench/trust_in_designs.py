@@ -19,6 +19,10 @@ from analysis.estimands import ESTIMANDS
 from analysis.frames import study_frames
 from analysis.lap_time_test import compare_laps
 from analysis.outcomes import by_participant
+from analysis.place import practice_of
+from analysis.power.pool import Pool
+from analysis.power.power import adjusted
+from analysis.power.vectorised import signed_rank_p
 from analysis.stats.mean_difference import mean_difference
 from analysis.stats.mixed_model import lap_time_model
 from analysis.stats.random_intercept import fit_random_intercept
@@ -84,10 +88,40 @@ def share(values: Sequence[float]) -> str:
     return f"{100 * float(np.mean(values)):.1f}%"
 
 
+def many(
+    draw: Callable[[Rng, int], People],
+    orders: Sequence[Sequence[str]],
+    practice: float,
+    cohorts: int,
+    rng: Rng,
+) -> tuple[np.ndarray, np.ndarray, Pool]:
+    """Return log times of many cohorts, with their places, as the power computation takes them.
+
+    Returns
+    -------
+    tuple
+        Log times (cohorts x people, conditions), rows of each cohort, and both as a pool.
+    """
+    places = np.array([[order.index(c) + 1 for c in CONDITIONS] for order in orders], dtype=float)
+    logs = np.concatenate([draw(rng, len(orders)) for _ in range(cohorts)])
+    every = np.tile(places, (cohorts, 1))
+    logs += np.log1p(-practice) * (every - 1)
+    said = np.array([" > ".join(order) for order in orders])
+    pool = Pool(CONDITIONS, logs, every, {}, {}, np.tile(said, cohorts))
+    return logs, np.arange(len(logs)).reshape(cohorts, -1), pool
+
+
+def wilcoxon_p(logs: np.ndarray, pair: tuple[str, str]) -> np.ndarray:
+    """Return the p of each cohort's log ratios."""
+    a, b = (CONDITIONS.index(c) for c in pair)
+    return signed_rank_p(logs[..., a] - logs[..., b])
+
+
 def orders_table(pool: People, cohorts: int, seed: int) -> Iterator[str]:
     """Yield how often a true null hypothesis is rejected, and a verdict given, by order."""
-    yield "| people | order | practice a lap | what is done | p <= 5% | verdict without caution |"
-    yield "|---|---|---|---|---|---|"
+    pairs = " | ".join(f"{c} - {r}" for c, r in PAIRS)
+    yield f"| people | order | practice a lap | what is done | {pairs} | verdict, no caution |"
+    yield "|---|---|---|---|---|---|---|---|"
     sources: dict[str, Callable[[Rng, int], People]] = {
         "shipped": lambda r, n: without_effect(pool[r.permutation(len(pool))[:n]], r),
         "symmetric": symmetric_people,
@@ -96,35 +130,65 @@ def orders_table(pool: People, cohorts: int, seed: int) -> Iterator[str]:
         for name, orders in ORDERS.items():
             for practice in (0.0, 0.04, 0.08):
                 rng = np.random.default_rng([seed, 1])
-                p, given, kinds = [], [], set()
-                for _ in range(cohorts):
-                    table = laps(draw(rng, len(orders)), orders, practice)
-                    tested = compare_laps(table, *PAIRS[1], "complete pairs", rng)
-                    kinds.add(tested.practice)
-                    p.append(tested.test.p <= 0.05)
-                    given.append(p[-1] and tested.practice == "balanced")
+                one = laps(draw(rng, len(orders)), orders, practice)
+                kind = practice_of(one, *PAIRS[1])
+                found = [
+                    rejected(
+                        kind,
+                        draw,
+                        orders=orders,
+                        practice=practice,
+                        cohorts=cohorts,
+                        pair=pair,
+                        seed=seed,
+                    )
+                    for pair in PAIRS
+                ]
+                verdict = found[1] if kind == "balanced" else [False]
                 yield (
-                    f"| {source} | {name} | {100 * practice:.0f}% | {', '.join(sorted(kinds))} | "
-                    f"{share(p)} | {share(given)} |"
+                    f"| {source} | {name} | {100 * practice:.0f}% | {kind} | "
+                    f"{' | '.join(map(share, found))} | {share(verdict)} |"
                 )
+
+
+def rejected(
+    kind: str,
+    draw: Callable[[Rng, int], People],
+    *,
+    orders: Sequence[Sequence[str]],
+    practice: float,
+    cohorts: int,
+    pair: tuple[str, str],
+    seed: int,
+) -> np.ndarray:
+    """Return in which cohorts the declared test rejects."""
+    rng = np.random.default_rng([seed, 1])
+    if kind == "adjusted":  # a mixed model for each cohort: a tenth of them must do
+        tables = (laps(draw(rng, len(orders)), orders, practice) for _ in range(cohorts // 10))
+        p = [lap_time_model(t, pair[1], rng, wanted=[pair[0]])[0].p for t in tables]
+        return np.array(p) <= 0.05
+    logs, drawn, pool = many(draw, orders, practice, cohorts, rng)
+    shown = adjusted(pool, drawn) if kind == "balanced" else logs[drawn]
+    return wilcoxon_p(shown, pair) <= 0.05
 
 
 def power_table(cohorts: int, seed: int) -> Iterator[str]:
     """Yield how often an effect of -0.12 is found in a Williams square."""
     yield "| practice a lap | Wilcoxon, not adjusted | Wilcoxon, adjusted | mixed model |"
     yield "|---|---|---|---|"
+    square, pair = ORDERS["Williams square"], PAIRS[1]
+
+    def draw(rng: Rng, n: int) -> People:
+        return symmetric_people(rng, n, -0.12)
+
     for practice in (0.0, 0.04, 0.08):
         rng = np.random.default_rng([seed, 2])
-        found = []
-        for _ in range(cohorts):
-            table = laps(symmetric_people(rng, N, -0.12), ORDERS["Williams square"], practice)
-            wide = np.log(table.pivot_table(index="participant", columns="condition",
-                                            values="lap_time_s"))  # fmt: skip
-            plain = signed_rank(wide[PAIRS[1][0]] - wide[PAIRS[1][1]]).p
-            adjusted = compare_laps(table, *PAIRS[1], "complete pairs", rng).test.p
-            model = lap_time_model(table, PAIRS[1][1], rng, wanted=[PAIRS[1][0]])[0].p
-            found.append([plain <= 0.05, adjusted <= 0.05, model <= 0.05])
-        yield f"| {100 * practice:.0f}% | {' | '.join(map(share, np.transpose(found)))} |"
+        logs, drawn, pool = many(draw, square, practice, cohorts, rng)
+        plain = wilcoxon_p(logs[drawn], pair) <= 0.05
+        less_place = wilcoxon_p(adjusted(pool, drawn), pair) <= 0.05
+        tables = (laps(draw(rng, N), square, practice) for _ in range(cohorts // 10))
+        model = [lap_time_model(t, pair[1], rng, wanted=[pair[0]])[0].p <= 0.05 for t in tables]
+        yield f"| {100 * practice:.0f}% | {share(plain)} | {share(less_place)} | {share(model)} |"
 
 
 def coverage_table(pool: People, cohorts: int, seed: int) -> Iterator[str]:
