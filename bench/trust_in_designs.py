@@ -163,8 +163,8 @@ def rejected(
 ) -> np.ndarray:
     """Return in which cohorts the declared test rejects."""
     rng = np.random.default_rng([seed, 1])
-    if kind == "adjusted":  # a mixed model for each cohort: a tenth of them must do
-        tables = (laps(draw(rng, len(orders)), orders, practice) for _ in range(cohorts // 10))
+    if kind == "adjusted":  # a mixed model for each cohort: a fortieth of them must do
+        tables = (laps(draw(rng, len(orders)), orders, practice) for _ in range(cohorts // 40))
         p = [lap_time_model(t, pair[1], rng, wanted=[pair[0]])[0].p for t in tables]
         return np.array(p) <= 0.05
     logs, drawn, pool = many(draw, orders, practice, cohorts, rng)
@@ -186,7 +186,7 @@ def power_table(cohorts: int, seed: int) -> Iterator[str]:
         logs, drawn, pool = many(draw, square, practice, cohorts, rng)
         plain = wilcoxon_p(logs[drawn], pair) <= 0.05
         less_place = wilcoxon_p(adjusted(pool, drawn), pair) <= 0.05
-        tables = (laps(draw(rng, N), square, practice) for _ in range(cohorts // 10))
+        tables = (laps(draw(rng, N), square, practice) for _ in range(cohorts // 40))
         model = [lap_time_model(t, pair[1], rng, wanted=[pair[0]])[0].p <= 0.05 for t in tables]
         yield f"| {100 * practice:.0f}% | {share(plain)} | {share(less_place)} | {share(model)} |"
 

@@ -2,7 +2,7 @@
 
 A slot is a position in the sequence of orders and groups (``protocols.order`` takes it for the
 participant's number). A synthetic cohort needs no enrolment: there participant n has slot n. Living
-people withdraw and are excluded; their slots are given again, so that orders and groups are balanced
+people withdraw and are excluded; their slots are given again, so that orders and groups balance
 over those whose sessions can be used.
 """
 

@@ -22,7 +22,7 @@ def test_usable_sessions_hold_the_first_slots_once_each(stays):
 
 
 def test_orders_are_balanced_over_those_who_stayed():
-    """Every third participant withdraws: twelve usable sessions still have each order three times."""
+    """Every third participant withdraws: twelve usable sessions have each order three times."""
     protocol = load_protocol("four-lap-balanced")
     enrolled = []
     while sum(e.state == "usable" for e in enrolled) < 12:
