@@ -41,6 +41,10 @@ class _Lap:
     collisions: int
     counted: bool
     practice: bool = False
+    end_reason: str = "finished"
+    late_share: float | None = None
+    input_age_p99_s: float | None = None
+    pauses: int | None = None
 
 
 def exclusions_of(study: Study, laps: pd.DataFrame) -> Exclusions:

@@ -6,6 +6,7 @@ and nothing in it needs pickle.
 
 import io
 import json
+import math
 import os
 import zipfile
 from collections.abc import Iterator, Mapping
@@ -24,6 +25,10 @@ FORMAT = "lad-model"
 FORMAT_VERSION = 1
 FIXED_DATE = (1980, 1, 1, 0, 0, 0)
 UNIX = 3
+MAX_BYTES = 1_000_000_000
+"""Of a file, and of what it unfolds to: a model of capacity 5000 has half as many."""
+
+MAX_ARRAYS = 200
 
 
 @cache
@@ -87,11 +92,12 @@ def unpack(
     Raises
     ------
     ModelFileError
-        When the bytes are truncated, foreign, of another kind or of a later format.
+        When the bytes are truncated, foreign, too large, of another kind or of a later format.
     """
+    if len(data) > MAX_BYTES:
+        raise ModelFileError(f"{source}: {len(data)} bytes; a model may have {MAX_BYTES}")
     try:
-        with np.load(io.BytesIO(data), allow_pickle=False) as archive:
-            arrays = {name: archive[name] for name in archive.files}
+        arrays = _arrays(data)
         header = json.loads(str(arrays.pop("header")))
         found = (header["format"], header["format_version"], header["kind"])
     except Exception as error:  # whatever zip, numpy and JSON may raise on foreign bytes
@@ -107,6 +113,31 @@ def unpack(
     return header, arrays
 
 
+def _arrays(data: bytes) -> dict[str, NDArray[Any]]:
+    """Return a file's arrays; nothing in it is run, and nothing it claims is believed.
+
+    An array's header may claim any shape, and a compressed member may unfold without end: both are
+    compared with what is there before memory is asked for.
+    """
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        members = archive.infolist()
+        if len(members) > MAX_ARRAYS or sum(m.file_size for m in members) > MAX_BYTES:
+            raise ValueError("more arrays or larger ones than any model has")
+        return {m.filename.removesuffix(".npy"): _array(archive.read(m)) for m in members}
+
+
+def _array(content: bytes) -> NDArray[Any]:
+    stream = io.BytesIO(content)
+    if np.lib.format.read_magic(stream) != (1, 0):
+        raise ValueError("an array of another format than ours")
+    shape, _, dtype = np.lib.format.read_array_header_1_0(stream)
+    if math.prod(shape) * dtype.itemsize != len(content) - stream.tell():
+        raise ValueError(f"an array that claims the shape {shape} and has another size")
+    stream.seek(0)
+    array: NDArray[Any] = np.lib.format.read_array(stream, allow_pickle=False)
+    return array
+
+
 @contextmanager
 def rebuilding(source: str) -> Iterator[None]:
     """Turn whatever is wrong inside a well-formed file into a ModelFileError that names it."""
@@ -120,7 +151,8 @@ def rebuilding(source: str) -> Iterator[None]:
 def read(path: str | Path) -> bytes:
     """Read a file; the error is a ModelFileError that names the path."""
     try:
-        return Path(path).read_bytes()
+        with Path(path).open("rb") as stream:
+            return stream.read(MAX_BYTES + 1)
     except OSError as error:
         raise ModelFileError(f"{path}: cannot be read ({error.strerror})") from error
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from participants.driver import Driver
+from participants.live.seat import Seat
 from participants.survey import Question
 from participants.traits import ResponseStyle, Traits
 from protocols.course.schema import Course
@@ -29,6 +30,8 @@ class DriverSetup:
         The protocol's options for this driver, as written in the file.
     folder
         Where relative paths in the options start; None for the working directory.
+    seat
+        Where a living driver sits; None for a simulated one.
     """
 
     course: Course
@@ -36,6 +39,7 @@ class DriverSetup:
     traits: Traits | None = None
     options: Mapping[str, Any] = field(default_factory=dict)
     folder: Path | None = None
+    seat: Seat | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,11 +76,14 @@ class DemonstratorSetup:
         The demonstrator's own random numbers; it derives those of each lap from them.
     options
         The protocol's options for this demonstrator, as written in the file.
+    seat
+        Where a living demonstrator sits; None for a simulated one.
     """
 
     course: Course
     rng: np.random.Generator
     options: Mapping[str, Any] = field(default_factory=dict)
+    seat: Seat | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,9 +100,12 @@ class RespondentSetup:
         How this person answers; None for a respondent without habits.
     options
         The protocol's options for respondents, as written in the file.
+    seat
+        Where a living respondent sits; None for a simulated one.
     """
 
     questions: tuple[Question, ...]
     rng: np.random.Generator
     style: ResponseStyle | None = None
     options: Mapping[str, Any] = field(default_factory=dict)
+    seat: Seat | None = None

@@ -29,7 +29,9 @@ class Sight(NamedTuple):
     gates_passed
         How many gates the chair has passed.
     helped
-        Whether the assistant's command moved the chair in the step before; people notice it.
+        Whether another's command moved the chair in the step before: one notices.
+    contact
+        Whether the chair touched an obstacle in the step before: one feels it.
     """
 
     t: float
@@ -40,6 +42,7 @@ class Sight(NamedTuple):
     laser: float
     gates_passed: int
     helped: bool
+    contact: bool = False
 
 
 @runtime_checkable

@@ -43,10 +43,19 @@ class Exclusion(FileModel):
         Fewer completed laps than this, practice apart.
     max_collisions
         More collisions than this in all laps together, practice apart.
+    max_late_share
+        A larger share of steps than this started late, practice apart (living people).
+    max_input_age_s
+        The 99th percentile of the age of the driver's command is higher than this, in s.
+    max_interruptions
+        More laps than this were paused, stopped or disconnected.
     """
 
     min_completed_laps: Annotated[int, Field(ge=1)] | None = None
     max_collisions: Annotated[int, Field(ge=0)] | None = None
+    max_late_share: Annotated[float, Field(ge=0, le=1)] | None = None
+    max_input_age_s: Annotated[float, Field(gt=0)] | None = None
+    max_interruptions: Annotated[int, Field(ge=0)] | None = None
 
 
 class Comparison(FileModel):

@@ -1,9 +1,12 @@
 """Whether a study's own rules exclude a participant."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Protocol
 
 from protocols.declared import Exclusion
+
+BROKEN_OFF = ("stopped", "disconnected", "interrupted")
+"""Ends of a lap that are neither the participant's driving nor their wish."""
 
 
 class DrivenLap(Protocol):
@@ -20,6 +23,22 @@ class DrivenLap(Protocol):
     @property
     def collisions(self) -> int:
         """Number of contacts with obstacles."""
+
+    @property
+    def end_reason(self) -> str:
+        """Why the lap ended."""
+
+    @property
+    def late_share(self) -> float | None:
+        """Share of steps that started late; None in simulated time."""
+
+    @property
+    def input_age_p99_s(self) -> float | None:
+        """99th percentile of the age of the driver's command, s; None for a simulated driver."""
+
+    @property
+    def pauses(self) -> int | None:
+        """How often the lap was paused; None in simulated time."""
 
 
 def exclusion_reason(rules: Exclusion, laps: Iterable[DrivenLap]) -> str | None:
@@ -39,4 +58,18 @@ def exclusion_reason(rules: Exclusion, laps: Iterable[DrivenLap]) -> str | None:
     collisions = sum(lap.collisions for lap in counted)
     if rules.max_collisions is not None and collisions > rules.max_collisions:
         return f"{collisions} collisions; the protocol allows {rules.max_collisions}"
+    return _poor_link(rules, counted)
+
+
+def _poor_link(rules: Exclusion, laps: Sequence[DrivenLap]) -> str | None:
+    """Return the rule about a living person's link that applies, in words."""
+    late = max((lap.late_share or 0.0 for lap in laps), default=0.0)
+    if rules.max_late_share is not None and late > rules.max_late_share:
+        return f"{late:.1%} of a lap's steps were late; the protocol allows {rules.max_late_share}"
+    age = max((lap.input_age_p99_s or 0.0 for lap in laps), default=0.0)
+    if rules.max_input_age_s is not None and age > rules.max_input_age_s:
+        return f"inputs were {age:.2f} s old; the protocol allows {rules.max_input_age_s} s"
+    interrupted = sum(bool(lap.pauses) or lap.end_reason in BROKEN_OFF for lap in laps)
+    if rules.max_interruptions is not None and interrupted > rules.max_interruptions:
+        return f"{interrupted} laps interrupted; the protocol allows {rules.max_interruptions}"
     return None

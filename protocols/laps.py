@@ -43,6 +43,8 @@ class PlannedLap(FileModel):
         What is asked after the lap.
     break_s
         How long the participant rests after the lap and its questions, in s; 0 for no break.
+    until_comfortable
+        Whether a living participant may end the lap by saying that they feel comfortable.
     """
 
     condition: Name
@@ -50,3 +52,4 @@ class PlannedLap(FileModel):
     time_limit_s: Annotated[float, Field(gt=0, le=3600)] = 300.0
     survey: tuple[AskedInstrument, ...] = ()
     break_s: Annotated[float, Field(ge=0, le=3600)] = 0.0
+    until_comfortable: bool = False

@@ -6,17 +6,27 @@ The one list of names: protocol files are checked against it, and parts are made
 from collections.abc import Mapping
 from typing import Literal
 
+LIVE = "live"
+"""A living person, in any role; they need a browser."""
+
 DRIVERS: Mapping[str, str] = {
     "human": "participants.human.driver:human_driver",
     "autonomous": "participants.autonomous:autonomous_driver",
     "scripted": "participants.scripted:scripted_driver",
+    LIVE: "participants.live.driver:live_driver",
 }
 IMPAIRMENTS: Mapping[str, str] = {
     "tremor": "participants.impairments.tremor:tremor",
     "weakness": "participants.impairments.weakness:weakness",
 }
-DEMONSTRATORS: Mapping[str, str] = {"attentive": "participants.attentive:attentive_demonstrator"}
-RESPONDENTS: Mapping[str, str] = {"ordinal": "participants.respondent:ordinal_respondent"}
+DEMONSTRATORS: Mapping[str, str] = {
+    "attentive": "participants.attentive:attentive_demonstrator",
+    LIVE: "participants.live.demonstrator:live_demonstrator",
+}
+RESPONDENTS: Mapping[str, str] = {
+    "ordinal": "participants.respondent:ordinal_respondent",
+    LIVE: "participants.live.pages:live_respondent",
+}
 LAD = "lad"
 """The model of the paper, the only one that takes ``parameters``."""
 

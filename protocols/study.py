@@ -11,6 +11,7 @@ from protocols.declared import Comparison, Exclusion
 from protocols.files.file_model import FileModel, FormatVersion, Name
 from protocols.groups import Group
 from protocols.laps import AskedInstrument, PlannedLap
+from protocols.live import LiveSettings
 from protocols.model_choice import BorrowedModel, ModelChoice, Sha256
 from protocols.orders import Orders
 from protocols.pages import Consent, Particular, Text
@@ -80,6 +81,8 @@ class StudyProtocol(FileModel):
         What is asked once, after the last lap, about the whole session.
     debrief
         Shown after everything else; null for none.
+    live
+        What living people see and may do.
     replicates
         The published study that this one repeats, whose figures its report shows beside its own;
         null for a study of its own. It changes nothing that is run or recorded.
@@ -107,6 +110,7 @@ class StudyProtocol(FileModel):
     demographics: Annotated[tuple[Particular, ...], Field(max_length=100)] = ()
     survey: Annotated[tuple[AskedInstrument, ...], Field(max_length=100)] = ()
     debrief: Text | None = None
+    live: LiveSettings = LiveSettings()
     replicates: Publication | None = None
     registration: Sha256 | None = None
 

@@ -11,6 +11,7 @@ from harness.cli import (
     check,
     check_part,
     listing,
+    live,
     power,
     preregister,
     recover,
@@ -61,6 +62,7 @@ def _options(
 
 
 app.command("run")(run.run)
+app.command("live")(live.live)
 app.command("report")(report.report)
 app.command("reproduce")(reproduce.reproduce)
 app.command("replay")(replay.replay)

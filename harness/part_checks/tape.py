@@ -111,10 +111,14 @@ class Tape:
         self.commands: list[Command | None] = []
 
     def tick(
-        self, command: Command | None, demonstrator: Assistance | None, timing: Timing | None
+        self,
+        command: Command | None,
+        demonstrator: Assistance | None,
+        timing: Timing | None,
+        telemetry: Mapping[str, Any],
     ) -> None:
         """Keep the driver's answer as it was given; a step has the command in force only."""
-        del demonstrator, timing
+        del demonstrator, timing, telemetry
         self.commands.append(command)
 
     def record(self, step: Step) -> None:
@@ -140,6 +144,9 @@ class Tape:
         """Keep nothing."""
 
     def page(self, kind: str, entered: Mapping[str, Answer]) -> None:
+        """Keep nothing."""
+
+    def repeated(self) -> None:
         """Keep nothing."""
 
 

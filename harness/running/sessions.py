@@ -106,12 +106,11 @@ def _fault(run: "StudyRun", *preparations: Callable[["StudyRun"], object]) -> In
     return None
 
 
-def world_of(run: "StudyRun") -> "World":
-    """Return this process's world for a study, in PyBullet."""
+def world_of(run: "StudyRun", *, shared: bool = True) -> "World":
+    """Return this process's world for a study, in PyBullet; with ``shared=False``, a new one."""
     protocol = run.study.protocol
-    return _reused_world(
-        run.study.course, protocol.laser, protocol.control_period_s, protocol.start_noise
-    )
+    make = _reused_world if shared else _reused_world.__wrapped__
+    return make(run.study.course, protocol.laser, protocol.control_period_s, protocol.start_noise)
 
 
 @lru_cache(maxsize=1)

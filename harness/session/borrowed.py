@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from harness.session.model import make_model
-from harness.session.parts import SessionParts, make_parts
+from harness.session.parts import NO_SEATS, Seats, SessionParts, make_parts
 from harness.session.session import Session
 from harness.session.study_run import StudyRun
 from harness.world.world import World
@@ -51,12 +51,15 @@ def borrowed_models(run: StudyRun, number: int, world: World) -> dict[str, Assis
     }
 
 
-def make_all_parts(run: StudyRun, number: int, world: World) -> SessionParts:
+def make_all_parts(
+    run: StudyRun, number: int, world: World, seats: Seats = NO_SEATS
+) -> SessionParts:
     """Return what takes part in a participant's session, borrowed models included.
 
     Parameters and exceptions are those of ``make_parts`` and ``borrowed_models``.
     """
-    return replace(make_parts(run, number), models=borrowed_models(run, number, world))
+    parts = make_parts(run, number, seats=seats)
+    return replace(parts, models=borrowed_models(run, number, world))
 
 
 def _bytes_of(run: StudyRun, number: int, name: str, source: BorrowedModel, world: World) -> bytes:

@@ -5,8 +5,9 @@ import time
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
-StopReason = Literal["stopped", "disconnected", "interrupted"]
-"""Stopped by the experimenter; a person's connection was lost; the program itself ended."""
+StopReason = Literal["comfortable", "stopped", "disconnected", "interrupted"]
+"""A participant ends a practice lap; the experimenter stops the lap; a person's connection was
+lost; the program itself ended."""
 
 CATCH_UP_S = 0.05
 """A step that starts later than this moves the lap's zero; a smaller delay is caught up, s."""

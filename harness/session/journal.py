@@ -1,9 +1,11 @@
 """Writes what is applied in a session before it acts, so that a killed session can resume."""
 
 import os
+import threading
 from collections import deque
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Protocol
 
 from harness.session.clock import Timing
@@ -30,9 +32,13 @@ class Journal(Protocol):
         """Note that a stage begins."""
 
     def tick(
-        self, command: Command | None, demonstrator: Assistance | None, timing: Timing | None
+        self,
+        command: Command | None,
+        demonstrator: Assistance | None,
+        timing: Timing | None,
+        telemetry: Mapping[str, Any],
     ) -> None:
-        """Note what people gave in one control step, and how its start kept to the clock."""
+        """Note what people gave in one control step, and how it reached us."""
 
     def broken_off(self, reason: str, note: str | None) -> None:
         """Note that a lap ends before its time."""
@@ -42,6 +48,9 @@ class Journal(Protocol):
 
     def page(self, kind: str, entered: Mapping[str, Answer]) -> None:
         """Note what was entered on a page."""
+
+    def repeated(self) -> None:
+        """Note that the lap is driven once more."""
 
 
 class FileJournal:
@@ -57,6 +66,11 @@ class FileJournal:
     header
         Which session it is.
 
+    Attributes
+    ----------
+    left
+        Entries of an earlier process that the session has not come to yet.
+
     Raises
     ------
     InputError
@@ -65,13 +79,14 @@ class FileJournal:
 
     def __init__(self, path: Path, header: JournalHeader) -> None:
         self._path = path
-        self.replayed: deque[Entry] = deque()
+        self._writing = threading.Lock()
+        self.left: deque[Entry] = deque()
         recorded = _recorded(path)
         if recorded is not None:
             refuse_other_journal(recorded, header)
             drop_torn_line(recorded)
-            self.replayed.extend(recorded.entries)
-        # Unbuffered: a written line survives the process, even one that is killed.
+            self.left.extend(entry for entry in recorded.entries if "event" not in entry)
+        # Unbuffered: a line that was written survives the process, whatever kills it.
         with naming(path):
             self._file = path.open("ab", buffering=0)
         if recorded is None:
@@ -92,10 +107,14 @@ class FileJournal:
         self._note({"stage": [index, kind, lap]})
 
     def tick(
-        self, command: Command | None, demonstrator: Assistance | None, timing: Timing | None
+        self,
+        command: Command | None,
+        demonstrator: Assistance | None,
+        timing: Timing | None,
+        telemetry: Mapping[str, Any],
     ) -> None:
         """Note what people gave in one control step."""
-        self._note({"tick": tick_entry(command, demonstrator, timing)})
+        self._note({"tick": tick_entry(command, demonstrator, timing, telemetry)})
 
     def broken_off(self, reason: str, note: str | None) -> None:
         """Note that a lap ends before its time."""
@@ -109,13 +128,24 @@ class FileJournal:
         """Note what was entered on a page."""
         self._note({"page": [kind, dict(entered)]})
 
+    def repeated(self) -> None:
+        """Note that the lap is driven once more."""
+        self._note({"repeat": True})
+
+    def event(self, event: Mapping[str, Any]) -> None:
+        """Note what happens beside what is applied; any thread may call this."""
+        self._append(entry_line({"event": dict(event)}))
+
+    def _append(self, line: bytes) -> None:
+        with self._writing, naming(self._path):
+            self._file.write(line)
+
     def _note(self, entry: Entry) -> None:
         line = entry_line(entry)
-        if not self.replayed:
-            with naming(self._path):
-                self._file.write(line)
+        if not self.left:
+            self._append(line)
             return
-        before = self.replayed.popleft()
+        before = self.left.popleft()
         if entry_line(before) != line:
             raise InputError(
                 f"{self._path}: the replayed session differs from the journal: "
@@ -124,13 +154,17 @@ class FileJournal:
 
 
 def tick_entry(
-    command: Command | None, demonstrator: Assistance | None, timing: Timing | None
+    command: Command | None,
+    demonstrator: Assistance | None,
+    timing: Timing | None,
+    telemetry: Mapping[str, Any] = MappingProxyType({}),
 ) -> dict[str, Any]:
     """Return a control step's entry: ``u`` the driver's command, ``d`` the demonstrator, ``t``.
 
     ``u`` is [v, w]; without it the driver gave no new command. ``d`` is [0] or, where the
     demonstrator helps, [1, v, w] or [1] without a command; without ``d`` there is no
-    demonstrator. ``t`` is [late, shift, paused], s; without it time is simulated.
+    demonstrator. ``t`` is [late, shift, paused], s; without it time is simulated. ``x`` is what
+    living people's links say, by column.
     """
     entry: dict[str, Any] = {}
     if command is not None:
@@ -140,6 +174,8 @@ def tick_entry(
         entry["d"] = [int(demonstrator.helping), *(_pair(given) if given is not None else ())]
     if timing is not None:
         entry["t"] = [timing.late_s, timing.shift_s, timing.paused_s]
+    if telemetry:
+        entry["x"] = dict(telemetry)
     return entry
 
 

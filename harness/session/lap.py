@@ -1,8 +1,8 @@
 """One lap: the order in which things happen in a control step, and when a lap ends."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,7 @@ from lad.command import STILL, Command
 from lad.inputs import as_inputs
 from participants.driver import Driver, WithdrewError
 from participants.sight import Onlooker, Sight
+from participants.telemetry import telemetry_of
 from protocols.condition import AssistantRole
 from protocols.course.gates import GateCounter
 from protocols.record.rows import EndReason
@@ -84,7 +85,9 @@ class Step(NamedTuple):
     input_age_s
         How old the driver's command is that was used; 0 for one given in this step.
     timing
-        How late the step started by the wall clock; None in simulated time.
+        How the step's start kept to the wall clock; None in simulated time.
+    telemetry
+        What living people's links say, by column.
     """
 
     seen: Observation
@@ -98,6 +101,7 @@ class Step(NamedTuple):
     result: Observation
     input_age_s: float
     timing: Timing | None
+    telemetry: Mapping[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,6 +174,7 @@ class Lap:
         # Checked once: a protocol's isinstance costs more than a model's prediction.
         self._onlookers = list(_onlookers(parts))
         learns = rules.training and isinstance(parts.model, Learner)
+        self._links = [link for part in _both(parts) if (link := telemetry_of(part)) is not None]
         self._learner: Learner | None = parts.model if learns else None  # type: ignore[assignment]
 
     def drive(self, recorder: Recorder, clock: Clock) -> Ending:
@@ -209,15 +214,16 @@ class Lap:
         assistance = self._in_charge(demonstrator, model)
         arbitrated = rules.arbitration(limited, assistance)
         executed = self._world.safeguard(arbitrated) if rules.safeguarded else arbitrated
+        telemetry = {name: value for link in self._links for name, value in link().items()}
         if self._journal is not None:
-            self._journal.tick(answer, demonstrator, timing)
+            self._journal.tick(answer, demonstrator, timing, telemetry)
         self._world.step(executed)
         self._helped = assistance.helping
         self._seen = self._world.observe()
         control = rules.assistant if assistance.helping else "driver"
         return Step(
             seen, x, intent, demonstrator, model, control, arbitrated, executed, self._seen,
-            age, timing,
+            age, timing, telemetry,
         )  # fmt: skip
 
     def _in_charge(self, demonstrator: Assistance | None, model: Assistance) -> Assistance:
@@ -247,6 +253,7 @@ class Lap:
             self._laser_offset,
             self._gates.passed,
             self._helped,
+            seen.contact,
         )
 
     def _broken_off(self, reason: EndReason, note: str | None) -> Ending:
@@ -256,6 +263,10 @@ class Lap:
 
     def _ending(self, reason: EndReason, t: float, note: str | None = None) -> Ending:
         return Ending(reason, t, self._gates.passed, note, self._seen)
+
+
+def _both(parts: LapParts) -> tuple[object, ...]:
+    return (parts.driver, parts.demonstrator)
 
 
 def _onlookers(parts: LapParts) -> Iterator[Onlooker]:

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 
+from harness.session.clock import CATCH_UP_S
 from harness.session.lap import Ending, Step
 from lad.assistant import Assistance
 from lad.command import Command
@@ -33,6 +34,8 @@ class LapLog:
         self._steps = StepRecorder()
         self._near = 0.0
         self._paused: list[float] = []
+        self._late: list[float] = []
+        self._ages: list[float] = []
 
     def record(self, step: Step) -> None:
         """Keep one step."""
@@ -82,21 +85,29 @@ class LapLog:
             result_x_m=result.x,
             result_y_m=result.y,
             result_heading_rad=result.heading,
+            **step.telemetry,
         )
+        if "driver_device" in step.telemetry:
+            self._ages.append(step.input_age_s)
         if timing is not None:
             self._paused.append(timing.paused_s)
+            self._late.append(timing.late_s)
 
     def table(self) -> pa.Table:
         """Return the lap's steps."""
         return self._steps.table()
 
-    def pauses(self) -> dict[str, Any]:
-        """Return the lap row's fields about pauses; empty for a lap in simulated time."""
+    def quality(self) -> dict[str, Any]:
+        """Return the lap row's fields about living people's time and links; empty without any."""
+        ages = {"input_age_p99_s": float(np.quantile(self._ages, 0.99))} if self._ages else {}
         if not self._paused:
-            return {}
+            return ages
+        late = self._late
         return {
+            "late_share": sum(seconds > CATCH_UP_S for seconds in late) / len(late),
             "pauses": sum(paused > 0 for paused in self._paused),
             "paused_s": math.fsum(self._paused),
+            **ages,
         }
 
 

@@ -16,6 +16,8 @@ from participants.cohort import Person
 from participants.cohort import draw_person as drawn_from_cohort
 from participants.demonstrator import Demonstrator
 from participants.driver import Driver
+from participants.live.pages import LiveReader
+from participants.live.seat import Seat
 from participants.pages import PageReader, SimulatedReader
 from participants.registry import make_demonstrator, make_driver, make_impaired, make_respondent
 from participants.setup import DemonstratorSetup, DriverSetup, ImpairmentSetup, RespondentSetup
@@ -27,7 +29,7 @@ from protocols.groups import Group
 from protocols.instrument import Instrument, Item
 from protocols.order import laps_of
 from protocols.record.rows import participant_id
-from protocols.shipped_parts import Role, shipped_factory
+from protocols.shipped_parts import LIVE, Role, shipped_factory
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +65,7 @@ def make_every_part(run: StudyRun, *, only_shipped: bool = False) -> None:
     run
         The study.
     only_shipped
-        Whether to leave out the parts whose code is not ours.
+        Whether to leave out the parts whose code is not ours, and living people.
 
     Raises
     ------
@@ -76,7 +78,7 @@ def make_every_part(run: StudyRun, *, only_shipped: bool = False) -> None:
         person = draw_person(run, 1)
 
     def wanted(role: Role, use: str) -> bool:
-        return not only_shipped or shipped_factory(role, use) is not None
+        return not only_shipped or (use != LIVE and shipped_factory(role, use) is not None)
 
     driver: Driver = _Nobody()
     if wanted("driver", cohort.driver.use):
@@ -147,7 +149,20 @@ def draw_person(run: StudyRun, number: int) -> Person:
     return drawn_from_cohort(run.study.protocol.cohort, generator(run.seed, number, "person"))
 
 
-def make_parts(run: StudyRun, number: int, person: Person | None = None) -> SessionParts:
+@dataclass(frozen=True, slots=True)
+class Seats:
+    """Where living people sit; None where nobody living does."""
+
+    participant: Seat | None = None
+    demonstrator: Seat | None = None
+
+
+NO_SEATS = Seats()
+
+
+def make_parts(
+    run: StudyRun, number: int, person: Person | None = None, seats: Seats = NO_SEATS
+) -> SessionParts:
     """Return what takes part in a participant's session.
 
     Parameters
@@ -155,7 +170,9 @@ def make_parts(run: StudyRun, number: int, person: Person | None = None) -> Sess
     run, number
         The study and the participant, counted from 1.
     person
-        The participant; None for the synthetic person that the seed draws.
+        Who it is; None for the synthetic person that the seed draws.
+    seats
+        Where living people sit.
 
     Raises
     ------
@@ -167,22 +184,24 @@ def make_parts(run: StudyRun, number: int, person: Person | None = None) -> Sess
     return SessionParts(
         person=whose,
         lap=LapParts(
-            driver=_driver(run, number, whose),
-            demonstrator=_demonstrator(run, number),
+            driver=_driver(run, number, whose, seats.participant),
+            demonstrator=_demonstrator(run, number, seats.demonstrator),
             model=_model(run, number),
         ),
-        respondent=_respondent(run, number, whose),
-        reader=SimulatedReader(whose.particulars()),
+        respondent=_respondent(run, number, whose, seats.participant),
+        reader=SimulatedReader(whose.particulars())
+        if seats.participant is None
+        else LiveReader(seats.participant),
     )
 
 
-def _driver(run: StudyRun, number: int, person: Person) -> Driver:
+def _driver(run: StudyRun, number: int, person: Person, seat: Seat | None) -> Driver:
     """Return the driver, with the person's impairment around it if the person has one."""
-    driver, impairment = _driver_alone(run, number, person), person.impairment
+    driver, impairment = _driver_alone(run, number, person, seat), person.impairment
     return driver if impairment is None else _impaired(run, number, impairment, driver)
 
 
-def _driver_alone(run: StudyRun, number: int, person: Person) -> Driver:
+def _driver_alone(run: StudyRun, number: int, person: Person, seat: Seat | None = None) -> Driver:
     choice = run.study.protocol.cohort.driver
     setup = DriverSetup(
         course=run.study.course,
@@ -190,6 +209,7 @@ def _driver_alone(run: StudyRun, number: int, person: Person) -> Driver:
         traits=person.traits,
         options=choice.options,
         folder=run.study.folder,
+        seat=seat,
     )
     return make_driver(choice.use, setup, run.study.code)
 
@@ -200,12 +220,12 @@ def _impaired(run: StudyRun, number: int, impairment: ImpairmentChoice, driver: 
     return make_impaired(impairment.use, around, run.study.code)
 
 
-def _demonstrator(run: StudyRun, number: int) -> Demonstrator | None:
+def _demonstrator(run: StudyRun, number: int, seat: Seat | None = None) -> Demonstrator | None:
     choice = run.study.protocol.cohort.demonstrator
     if choice is None:
         return None
     rng = generator(run.seed, number, "demonstrator")
-    setup = DemonstratorSetup(run.study.course, rng, choice.options)
+    setup = DemonstratorSetup(run.study.course, rng, choice.options, seat)
     return make_demonstrator(choice.use, setup, run.study.code)
 
 
@@ -215,7 +235,9 @@ def _model(run: StudyRun, number: int) -> Assistant:
     return make_model(run.study.protocol.model, words, run.study.code)
 
 
-def _respondent(run: StudyRun, number: int, person: Person) -> Respondent | None:
+def _respondent(
+    run: StudyRun, number: int, person: Person, seat: Seat | None = None
+) -> Respondent | None:
     study, choice = run.study, run.study.protocol.cohort.respondent
     if choice is None:
         return None
@@ -227,6 +249,7 @@ def _respondent(run: StudyRun, number: int, person: Person) -> Respondent | None
         rng=generator(run.seed, number, "respondent"),
         style=person.style,
         options=choice.options,
+        seat=seat,
     )
     return make_respondent(choice.use, setup, study.code)
 

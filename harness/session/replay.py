@@ -1,13 +1,14 @@
-"""A session from its journal alone, without its people."""
+"""A session from its journal: people give again what they gave, as far as the journal goes."""
 
 from collections import deque
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.session.clock import LapStoppedError, Timing
+from harness.session.clock import Clock, LapStoppedError, Timing
 from harness.session.lap import LapParts
 from harness.session.parts import SessionParts
 from harness.session.session import Session
@@ -15,16 +16,30 @@ from harness.session.study_run import StudyRun
 from harness.world.world import World
 from lad.assistant import NO_ASSISTANCE, Assistance
 from lad.command import Command
+from participants.demonstrator import Demonstrator
 from participants.driver import Driver, WithdrewError, kind_of
-from participants.pages import Page
+from participants.pages import Page, PageReader
 from participants.sight import Sight
-from participants.survey import Answer, LapExperience, Question
+from participants.survey import Answer, LapExperience, Question, Respondent
+from participants.telemetry import telemetry_of
 from protocols.files.errors import InputError
 from protocols.record.journal import Entry, RecordedJournal, journal_header, refuse_other_journal
 from protocols.record.rows import participant_id
 from protocols.record.session import SessionRecord
 
 ENDS_HERE = "the journal ends here"
+
+
+class Entries(Protocol):
+    """What is left of a journal."""
+
+    @property
+    def left(self) -> deque[Entry]:
+        """Entries that the session has not come to yet; whoever is told of one takes it."""
+
+
+class UnfitEntryError(Exception):
+    """The journal's next entry is not what the session comes to."""
 
 
 def replay(
@@ -44,8 +59,7 @@ def replay(
     world
         Of the study's course.
     parts
-        Those of the session. Only the model answers again, and the driver's kind is taken from
-        them; people's inputs come from the journal.
+        Those of the session. Only the model is asked again; people give what they gave then.
 
     Raises
     ------
@@ -53,57 +67,43 @@ def replay(
         When the journal is another session's, or does not fit the session's stages.
     """
     refuse_other_journal(journal, journal_header(run.study, run.seed, participant_id(number)))
-    entries = Entries(journal.entries)
-    demonstrator = None if parts.lap.demonstrator is None else _Demonstrator(entries)
-    replayed = SessionParts(
-        person=parts.person,
-        lap=LapParts(_Driver(entries, parts.lap.driver), demonstrator, parts.lap.model),
-        respondent=None if parts.respondent is None else _Respondent(entries),
-        reader=_Reader(entries),
-        models=parts.models,
-    )
-    session = Session(run, number, world, replayed, clock=_Clock(entries), journal=entries)
+    entries = ReadEntries(journal.entries)
+    people, clock = replayed_people(entries, parts)
+    session = Session(
+        run, number, world, people,
+        clock=clock, journal=entries, repeats=lambda _: is_next(entries, "repeat"),
+    )  # fmt: skip
     try:
         return session.run()
-    except _UnfitEntryError as error:
+    except UnfitEntryError as error:
         line = len(journal.entries) - len(entries.left) + 2
         raise InputError(f"{journal.path}:{line}: {error}") from None
 
 
-class _UnfitEntryError(Exception):
-    """The journal's next entry is not the one that the session needs."""
+def replayed_people(entries: Entries, parts: SessionParts) -> tuple[SessionParts, Clock]:
+    """Return parts and a clock that take everything from a journal; at its end, the lap ends."""
+    given = parts.lap.demonstrator
+    lap = LapParts(
+        ReplayedDriver(entries, parts.lap.driver, None),
+        None if given is None else ReplayedDemonstrator(entries, None, given),
+        parts.lap.model,
+    )
+    respondent = None if parts.respondent is None else ReplayedRespondent(entries, None)
+    people = replace(parts, lap=lap, respondent=respondent, reader=ReplayedReader(entries, None))
+    return people, ReplayedClock(entries, None)
 
 
-class Entries:
-    """A journal's entries, read one by one; as the session's journal, it skips each entry."""
+class ReadEntries:
+    """A journal's entries; as the journal of a session, it takes as read what it is told."""
 
     def __init__(self, entries: Iterable[Entry]) -> None:
-        self.left = deque(entries)
-
-    def next(self, key: str) -> Any:
-        """Return the next entry's value, and leave it there.
-
-        Raises
-        ------
-        LapStoppedError
-            When there is no further entry.
-        """
-        if not self.left:
-            raise LapStoppedError("interrupted", ENDS_HERE)
-        if key not in self.left[0]:
-            found = ", ".join(self.left[0])
-            raise _UnfitEntryError(f"the session comes to {key!r}, the journal to {found!r}")
-        return self.left[0][key]
-
-    def has(self, key: str) -> bool:
-        """Return whether the next entry is of this kind."""
-        return bool(self.left) and key in self.left[0]
+        self.left = deque(entry for entry in entries if "event" not in entry)
 
     def stage(self, index: int, kind: str, lap: int | None) -> None:
         """Take a stage's entry."""
-        if self.next("stage") != [index, kind, lap]:
-            raise _UnfitEntryError(
-                f"the session comes to stage {index} ({kind}), the journal to {self.next('stage')}"
+        if next_entry(self, "stage") != [index, kind, lap]:
+            raise UnfitEntryError(
+                f"the session comes to stage {index} ({kind}), the journal to {self.left[0]}"
             )
         self._take()
 
@@ -123,77 +123,186 @@ class Entries:
         """Take a page's entry."""
         self._take()
 
+    def repeated(self) -> None:
+        """Take the entry of a repeated lap."""
+        self._take()
+
     def _take(self) -> None:
         if self.left:
             self.left.popleft()
 
 
-class _Driver:
-    def __init__(self, entries: Entries, driver: Driver) -> None:
-        self._entries = entries
+def next_entry(entries: Entries, key: str) -> Any:
+    """Return the next entry's value, and leave the entry there.
+
+    Raises
+    ------
+    LapStoppedError
+        When there is none.
+    UnfitEntryError
+        When it is of another kind.
+    """
+    if not entries.left:
+        raise LapStoppedError("interrupted", ENDS_HERE)
+    if key not in entries.left[0]:
+        found = ", ".join(entries.left[0])
+        raise UnfitEntryError(f"the session comes to {key!r}, the journal to {found!r}")
+    return entries.left[0][key]
+
+
+def is_next(entries: Entries, key: str) -> bool:
+    """Tell whether the journal's next entry is of a kind."""
+    return bool(entries.left) and key in entries.left[0]
+
+
+class ReplayedDriver:
+    """A driver from the journal, then the driver itself.
+
+    Parameters
+    ----------
+    entries
+        What is left of the journal.
+    driver
+        What it is of.
+    then
+        Drives on when the journal is at its end; None for nothing to follow.
+    """
+
+    def __init__(self, entries: Entries, driver: Driver, then: Driver | None) -> None:
+        self._entries, self._then = entries, then
         self.kind = kind_of(driver)
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:
-        pass
+        """Get ready; a person is asked only for a lap that the journal does not know."""
+        if self._then is not None and not self._entries.left:
+            self._then.start_lap(lap, rng)
 
-    def act(self, sight: Sight) -> Command | None:  # noqa: ARG002  # the seam's
-        if self._entries.has("end"):
-            reason, note = self._entries.next("end")
-            raise (
-                WithdrewError(note or "") if reason == "withdrew" else LapStoppedError(reason, note)
-            )
-        given = self._entries.next("tick").get("u")
+    def act(self, sight: Sight) -> Command | None:
+        """Return the command that was given."""
+        if self._then is not None and not self._entries.left:
+            return self._then.act(sight)
+        if is_next(self._entries, "end"):
+            reason, note = next_entry(self._entries, "end")
+            if reason == "withdrew":
+                raise WithdrewError(note or "")
+            raise LapStoppedError(reason, note)
+        given = next_entry(self._entries, "tick").get("u")
         return None if given is None else Command(*given)
 
+    def telemetry(self) -> Mapping[str, Any]:
+        """Return what the links said: the driver's and the demonstrator's are one entry."""
+        if self._entries.left:
+            told: Mapping[str, Any] = self._entries.left[0].get("tick", {}).get("x", {})
+            return told
+        link = telemetry_of(self._then)
+        return {} if link is None else link()
 
-class _Demonstrator:
-    def __init__(self, entries: Entries) -> None:
-        self._entries = entries
+
+class ReplayedDemonstrator:
+    """A demonstrator from the journal, then the demonstrator itself; as for the driver."""
+
+    def __init__(self, entries: Entries, then: Demonstrator | None, given: object = None) -> None:
+        self._entries, self._then, self._given = entries, then, given
 
     def start_lap(self) -> None:
-        pass
+        """Watch a new lap."""
+        if self._then is not None:
+            self._then.start_lap()
 
-    def assist(self, x: NDArray[np.float64]) -> Assistance:  # noqa: ARG002  # the seam's
-        helping, *command = self._entries.next("tick").get("d", [0])
+    def look(self, sight: Sight) -> None:
+        """See the room."""
+        if self._then is not None:
+            self._then.look(sight)
+
+    def assist(self, x: NDArray[np.float64]) -> Assistance:
+        """Return the help that was given."""
+        if self._then is not None and not self._entries.left:
+            return self._then.assist(x)
+        helping, *command = next_entry(self._entries, "tick").get("d", [0])
         if not helping:
             return NO_ASSISTANCE
         return Assistance(helping=True, command=Command(*command) if command else None)
 
+    def telemetry(self) -> Mapping[str, Any]:
+        """Return what the link says; while replaying, the driver's entry has it."""
+        link = None if self._entries.left else telemetry_of(self._then)
+        return {} if link is None else link()
 
-class _Clock:
-    def __init__(self, entries: Entries) -> None:
-        self._entries = entries
+
+class ReplayedClock:
+    """The clock's readings from the journal, then the clock itself.
+
+    Parameters
+    ----------
+    entries
+        What is left of the journal.
+    then
+        Goes on from where the journal ends; None for nothing to follow.
+    before
+        Called once before it goes on in the middle of a lap: people come back to it.
+    """
+
+    def __init__(
+        self,
+        entries: Entries,
+        then: Clock | None,
+        before: Callable[[], None] = lambda: None,
+    ) -> None:
+        self._entries, self._then, self._before = entries, then, before
+        self._replaying = True
 
     def start(self, t: float = 0.0) -> Timing | None:
-        return self.wait_until(t)
+        """Return the first step's timing."""
+        if self._then is not None and not self._entries.left:
+            self._replaying = False
+            return self._then.start(t)
+        return self._told()
 
-    def wait_until(self, t: float) -> Timing | None:  # noqa: ARG002  # the seam's
-        given = self._entries.next("tick").get("t") if self._entries.has("tick") else None
+    def wait_until(self, t: float) -> Timing | None:
+        """Return the next step's timing."""
+        if self._then is None or self._entries.left:
+            return self._told()
+        if self._replaying:
+            self._replaying = False
+            self._before()
+            return self._then.start(t)
+        return self._then.wait_until(t)
+
+    def _told(self) -> Timing | None:
+        is_tick = is_next(self._entries, "tick")
+        given = next_entry(self._entries, "tick").get("t") if is_tick else None
         return None if given is None else Timing(*given)
 
 
-class _Respondent:
-    def __init__(self, entries: Entries) -> None:
-        self._entries = entries
+class ReplayedRespondent:
+    """Answers from the journal, then the respondent itself."""
+
+    def __init__(self, entries: Entries, then: Respondent | None) -> None:
+        self._entries, self._then = entries, then
 
     def answer(
-        self,
-        questions: Sequence[Question],
-        experience: LapExperience,  # noqa: ARG002  # the seam's
-        rng: np.random.Generator,  # noqa: ARG002  # the seam's
+        self, questions: Sequence[Question], experience: LapExperience, rng: np.random.Generator
     ) -> tuple[Answer, ...]:
-        given = tuple(self._entries.next("answers"))
+        """Return the answers that were given."""
+        if self._then is not None and not self._entries.left:
+            return self._then.answer(questions, experience, rng)
+        given = tuple(next_entry(self._entries, "answers"))
         if len(given) != len(questions):
-            raise _UnfitEntryError(f"{len(given)} answers to {len(questions)} questions")
+            raise UnfitEntryError(f"{len(given)} answers to {len(questions)} questions")
         return given
 
 
-class _Reader:
-    def __init__(self, entries: Entries) -> None:
-        self._entries = entries
+class ReplayedReader:
+    """Pages from the journal, then the reader itself."""
+
+    def __init__(self, entries: Entries, then: PageReader | None) -> None:
+        self._entries, self._then = entries, then
 
     def read(self, page: Page) -> Mapping[str, Answer]:
-        kind, entered = self._entries.next("page")
+        """Return what was entered."""
+        if self._then is not None and not self._entries.left:
+            return self._then.read(page)
+        kind, entered = next_entry(self._entries, "page")
         if kind != page.kind:
-            raise _UnfitEntryError(f"the session comes to page {page.kind}, the journal to {kind}")
+            raise UnfitEntryError(f"the session comes to page {page.kind}, the journal to {kind}")
         return dict(entered)

@@ -1,13 +1,13 @@
 """One participant's session, stage by stage."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from harness.session.arbitration import ARBITRATIONS
 from harness.session.clock import Clock, LapStoppedError, VirtualClock
 from harness.session.experience import experience_of
 from harness.session.journal import Journal
-from harness.session.lap import Ending, Lap, LapParts, Rules
+from harness.session.lap import Ending, Lap, LapParts, Recorder, Rules, Step
 from harness.session.lap_log import LapLog, summary
 from harness.session.limitation import right_turn_limit, unlimited
 from harness.session.model import basis_vectors, saved
@@ -25,7 +25,7 @@ from protocols.course.gates import GateCounter
 from protocols.exclusion import exclusion_reason
 from protocols.instrument import Instrument, Item
 from protocols.laps import WHOLE_SESSION, PlannedLap
-from protocols.order import group_of, in_words, places
+from protocols.order import group_of, in_words
 from protocols.record.rows import (
     ENDS_SESSION,
     LapRow,
@@ -54,7 +54,11 @@ class Session:
     clock
         Paces the laps; virtual by default.
     journal
-        Receives what is applied before it acts; None for no journal.
+        Told what is applied before it acts; None for no journal.
+    watch
+        Told of each step after it is recorded; None for no one.
+    repeats
+        Asked after each lap, with its row, whether the lap is driven once more.
 
     Attributes
     ----------
@@ -73,7 +77,10 @@ class Session:
         *,
         clock: Clock | None = None,
         journal: Journal | None = None,
+        watch: Recorder | None = None,
+        repeats: Callable[[LapRow], bool] = lambda _: False,
     ) -> None:
+        self._watch, self._repeats = watch, repeats
         self._run, self._number, self._world = of_one(run, number), number, world
         self._parts, self._journal = parts, journal
         self._clock: Clock = VirtualClock() if clock is None else clock
@@ -84,7 +91,6 @@ class Session:
             for stage in self.stages
             if stage.kind == "lap" and stage.planned is not None
         )
-        self._places = places(self._planned)
         self.done = 0
         self._ended = False
         self._consented = True
@@ -102,6 +108,10 @@ class Session:
     def over(self) -> bool:
         """Whether nothing is left to do: every stage is over, or the participant has left."""
         return self._ended or self.done == len(self.stages)
+
+    def end(self) -> None:
+        """Have nothing follow."""
+        self._ended = True
 
     def advance(self) -> Stage:
         """Go through the next stage, and return it."""
@@ -129,6 +139,8 @@ class Session:
         if stage.lap is not None and stage.planned is not None and stage.kind == "lap":
             ending = self._drive(stage.lap, stage.planned)
             self._ended = ending.reason in ENDS_SESSION
+            if not self._ended and self._repeats(self._laps[-1].row):
+                self._repeat(stage)
         elif stage.kind == "questions":
             if stage.planned is None:
                 self._ask(self._run.study.session_questions, -1, WHOLE_SESSION)
@@ -137,6 +149,17 @@ class Session:
                 self._ask(self._run.study.questions(stage.planned), row.lap, row.condition)
         else:
             self._show(stage)
+
+    def _repeat(self, stage: Stage) -> None:
+        """Put a lap into the session once more, next; it gets the first number that is free."""
+        if self._journal is not None:
+            self._journal.repeated()
+        free = 1 + max(other.lap for other in self.stages if other.lap is not None)
+        following = [stage, *self.stages[self.done + 1 :]]
+        same = [other for other in following if other.lap == stage.lap]
+        rest = [other for other in following if other.lap != stage.lap]
+        fresh = [replace(other, lap=free) for other in same]
+        self.stages = (*self.stages[: self.done + 1], *fresh, *rest)
 
     def _show(self, stage: Stage) -> None:
         """Show a page, and keep what is entered on it."""
@@ -173,7 +196,8 @@ class Session:
         log = LapLog(self._centreline, demonstrated=condition.assistant == "demonstrator")
         gates = GateCounter(self._run.study.course)
         rules = rules_of(condition, planned.time_limit_s, protocol.hold_s)
-        ending = Lap(self._world, parts, rules, gates, self._journal).drive(log, self._clock)
+        recorder = log if self._watch is None else _Both(log, self._watch)
+        ending = Lap(self._world, parts, rules, gates, self._journal).drive(recorder, self._clock)
         steps = log.table()
         row = LapRow(
             participant=participant_id(number),
@@ -184,13 +208,18 @@ class Session:
             assistant=condition.assistant,
             training=condition.training and isinstance(parts.model, Learner),
             seed=fingerprint(seed, number, f"lap {lap}/world"),
-            place=self._places[lap],
+            place=None if planned.practice else 1 + self._analysed,
             **summary(steps, ending, self._world.period),
-            **log.pauses(),
+            **log.quality(),
             **basis_vectors(parts.model),
         )
         self._laps.append(RecordedLap(row, steps))
         return ending
+
+    @property
+    def _analysed(self) -> int:
+        """How many laps to analyse are on record; one that was driven again counts twice."""
+        return sum(not recorded.row.practice for recorded in self._laps)
 
     def _parts_with(self, model: str) -> LapParts:
         """Return what takes part in a lap, with the participant's own or a borrowed model."""
@@ -222,7 +251,7 @@ class Session:
     def _participant_row(self) -> ParticipantRow:
         protocol, person = self._run.study.protocol, self._parts.person
         rows = [recorded.row for recorded in self._laps]
-        planned = sum(stage.kind == "lap" for stage in self.stages)
+        planned = len(self._planned)
         reason = exclusion_reason(protocol.exclusion, rows)
         entered: Mapping[str, object] = person.particulars() | self._entered
         return ParticipantRow(
@@ -235,7 +264,7 @@ class Session:
             handedness=entered.get("handedness"),  # type: ignore[arg-type]
             traits=person.as_numbers(),
             consented=self._consented,
-            completed=len(rows) == planned and all(row.completed for row in rows),
+            completed=sum(row.completed for row in rows) >= planned,
             laps_planned=planned,
             laps_driven=len(rows),
             excluded=reason is not None,
@@ -243,6 +272,18 @@ class Session:
             order=in_words(self._planned),
             group=group_of(protocol, self._number, self._run.seed),
         )
+
+
+class _Both:
+    """A recorder, and another that is told after it."""
+
+    def __init__(self, first: Recorder, second: Recorder) -> None:
+        self._first, self._second = first, second
+
+    def record(self, step: Step) -> None:
+        """Keep one step."""
+        self._first.record(step)
+        self._second.record(step)
 
 
 def rules_of(condition: Condition, time_limit_s: float, hold_s: float) -> Rules:

@@ -11,6 +11,7 @@ from participants.driver import Driver, kind_of
 from participants.options import Options, read_options
 from participants.setup import ImpairmentSetup
 from participants.sight import Sight
+from participants.telemetry import telemetry_of
 from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
 
 WORST = 4.0
@@ -89,6 +90,7 @@ class Tremor:
     ) -> None:
         self._driver = driver
         self.kind = kind_of(driver)
+        self.telemetry = telemetry_of(driver)
         self._rng = rng
         line, drawn = rng.uniform(0.0, math.pi), rng.uniform(LOWEST, HIGHEST)
         size = amplitude(severity)

@@ -166,22 +166,24 @@ def plan_route(course: Course, cell: float = 0.1) -> Route:
     raster = occupancy(course, cell)
     faults: list[NoWayError] = []
     for half, reach in ((WIDTH / 2, 1.5), (NARROWEST / 2 - cell * math.sqrt(0.5), 3.0)):
+        found: list[NoWayError] = []
         try:
             path = cheapest_path(course, raster, half)
             turning = chair_path(course, raster, path, _first_past(course, path), reach)
+            for way in (path, turning):
+                route = _shaped(course, way)
+                fault = _missed(course) if route is None else route_fault(course, raster, route)
+                if route is not None and fault is None:
+                    return route
+                found += [fault] if fault else []
         except NoWayError as error:
-            faults.append(error)
-            continue
-        for way in (path, turning):
-            route = _shaped(course, way)
-            if route is None:
-                faults.append(NoWayError(course.name, 0, "the way found misses one of the gates"))
-                continue
-            fault = route_fault(course, raster, route)
-            if fault is None:
-                return route
-            faults.append(fault)
+            found.append(error)
+        faults.append(found[-1])
     raise faults[0]
+
+
+def _missed(course: Course) -> NoWayError:
+    return NoWayError(course.name, 0, "the way found misses one of the gates")
 
 
 def _shaped(course: Course, cells: NDArray[np.float64]) -> Route | None:

@@ -25,6 +25,7 @@ from protocols.record.rows import (
     questions_follow,
 )
 from protocols.record.session import (
+    EVENTS_FILE,
     LAPS_FILE,
     MODEL_FILE,
     PARTICIPANT_FILE,
@@ -184,7 +185,7 @@ def _lap_faults(session: Path, laps: pa.Table) -> Iterator[str]:
     numbers = laps["lap"].to_pylist()
     wanted = {PARTICIPANT_FILE, LAPS_FILE, SURVEYS_FILE, *map(steps_file, numbers)}
     manifest = read_manifest(session)
-    listed = set(manifest.files) - {MODEL_FILE} if manifest else set()
+    listed = set(manifest.files) - {MODEL_FILE, EVENTS_FILE} if manifest else set()
     for name in sorted(wanted ^ listed):
         yield f"{session / name}: {'missing' if name in wanted else 'of a lap without a row'}"
     for lap, steps in zip(numbers, laps["steps"].to_pylist(), strict=True):
@@ -204,6 +205,11 @@ def _survey_faults(
     """Compare the answers' rows with the questions the protocol asks after each lap."""
     there = list(zip(*(surveys[c].to_pylist() for c in ("lap", "instrument", "item")), strict=True))
     planned = dict(enumerate(laps_of(study.protocol, participant_number(session.name), seed)))
+    by_condition = {lap.condition: lap for lap in planned.values()}
+    conditions = dict(zip(laps["lap"].to_pylist(), laps["condition"].to_pylist(), strict=True))
+    for number in set(conditions) - set(planned):  # driven once more
+        if conditions[number] in by_condition:
+            planned[number] = by_condition[conditions[number]]
     wanted = [
         (row["lap"], instrument.name, item.id)
         for row in laps.select(["lap", "end_reason"]).to_pylist()

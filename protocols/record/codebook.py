@@ -5,7 +5,7 @@ from typing import Any
 
 from protocols.record.column import SCHEMA_VERSION, Column
 from protocols.record.steps import STEP_COLUMNS
-from protocols.record.tables import LAP_COLUMNS, PARTICIPANT_COLUMNS, SURVEY_COLUMNS
+from protocols.record.tables import EVENT_COLUMNS, LAP_COLUMNS, PARTICIPANT_COLUMNS, SURVEY_COLUMNS
 
 CODEBOOK_FILE = "codebook.json"
 
@@ -14,6 +14,7 @@ TABLES: dict[str, tuple[Column, ...]] = {
     "laps": LAP_COLUMNS,
     "surveys": SURVEY_COLUMNS,
     "steps": STEP_COLUMNS,
+    "events": EVENT_COLUMNS,
 }
 """The record's tables by name."""
 

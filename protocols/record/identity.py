@@ -7,6 +7,7 @@ from typing import Any
 
 from protocols.files.document import spoken
 from protocols.files.fault import Location
+from protocols.live import LiveSettings
 from protocols.resolved import ResolvedStudy
 
 _ABSENT = object()
@@ -23,9 +24,11 @@ _LATER: Mapping[str, Mapping[str, Any]] = {
         "demographics": [],
         "survey": [],
         "debrief": None,
+        "live": LiveSettings().model_dump(mode="json"),
     },
-    "lap": {"break_s": 0.0},
+    "lap": {"break_s": 0.0, "until_comfortable": False},
     "condition": {"model": "own"},
+    "exclusion": {"max_late_share": None, "max_input_age_s": None, "max_interruptions": None},
     "item": {"answer": "point", "lowest": None, "highest": None, "step": None, "ends": None},
     "instrument": {"score": None},
     "analysis": {"margin_reason": "", "unfinished": "complete pairs"},
@@ -73,6 +76,7 @@ def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
     for field in _ABOUT:
         del protocol[field]
     _leave_out_defaults(protocol, "protocol")
+    _leave_out_defaults(protocol["exclusion"], "exclusion")
     for lap in protocol["laps"]:
         _leave_out_defaults(lap, "lap")
     for model in protocol.get("models", {}).values():

@@ -4,8 +4,9 @@ One JSON object a line. The first names the participant and the study; each othe
 
 - ``stage``: [index, kind, lap] as a stage begins;
 - ``tick``: what people gave in one control step, see ``TickEntry``;
-- ``end``: [reason, note] where a lap was broken off;
-- ``answers``: the answers to one questionnaire; ``page``: what was entered on a page.
+- ``end``: [reason, note] where a lap was broken off; ``repeat`` where it is driven once more;
+- ``answers``: the answers to one questionnaire; ``page``: what was entered on a page;
+- ``event``: what happened beside that, see ``protocols.record.rows.EventRow``.
 
 Numbers are written so that they read back exactly.
 """

@@ -77,9 +77,26 @@ def _readable(path: Path) -> Iterator[pq.ParquetFile]:
     """Open a Parquet file; every error while it is open is reported as the file's fault."""
     try:
         with pq.ParquetFile(path, page_checksum_verification=True) as file:
+            _refuse_absurd(path, file.metadata)
             yield file
     except FileNotFoundError:
         raise InputError(f"{path}: no such file") from None
     except (pa.ArrowException, OSError, ValueError, MemoryError) as error:
         reason = str(error).partition("\n")[0].rstrip(".")
         raise InputError(f"{path}: not a readable Parquet file: {reason}") from None
+
+
+MAX_ROWS, MAX_COLUMNS, MAX_BYTES = 10_000_000, 2_000, 4_000_000_000
+"""What no table of a study comes near: a few bytes may claim to stand for any number of rows."""
+
+
+def _refuse_absurd(path: Path, about: pq.FileMetaData) -> None:
+    """Refuse a table that no memory holds, before any of it is read."""
+    size = sum(about.row_group(i).total_byte_size for i in range(about.num_row_groups))
+    for what, found, most in (
+        ("rows", about.num_rows, MAX_ROWS),
+        ("columns", about.num_columns, MAX_COLUMNS),
+        ("bytes when unpacked", size, MAX_BYTES),
+    ):
+        if not 0 <= found <= most:
+            raise InputError(f"{path}: says it has {found} {what}; allowed: up to {most}")

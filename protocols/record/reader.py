@@ -1,35 +1,22 @@
 """Read a study directory: one of ours, or one that was recorded elsewhere in our schema."""
 
-import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
 
-import numpy as np
 import pyarrow as pa
 import pyarrow.compute as pc
-from numpy.typing import NDArray
 
 from protocols.course.schema import Course
 from protocols.files.errors import InputError
 from protocols.files.suggestion import listed
 from protocols.instrument import Instrument
 from protocols.record.atomic import is_partial
-from protocols.record.elsewhere.clock import lap_clock
 from protocols.record.elsewhere.conform import Conformed, conform
-from protocols.record.elsewhere.folders import folders_by_person, lap_shift, strays, unusable_names
-from protocols.record.elsewhere.joined import (
-    doubtful_times,
-    joined_answers,
-    joined_laps,
-    with_practice,
-)
-from protocols.record.elsewhere.placement import INCOMPLETE, Floor, Placement
-from protocols.record.elsewhere.rules import LAPS, PARTICIPANTS, STEPS, SURVEYS, TableRules
+from protocols.record.elsewhere.rules import STEPS
+from protocols.record.elsewhere.step_tables import ForeignSteps, LapSteps
 from protocols.record.header import StudyHeader, read_header
 from protocols.record.logs import failures
 from protocols.record.merge import LAPS_TABLE, PARTICIPANTS_TABLE, SURVEYS_TABLE
@@ -41,25 +28,8 @@ from protocols.record.sessions import (
     read_manifest,
     session_folders,
 )
+from protocols.record.study_tables import StudyTables
 from protocols.study import StudyProtocol
-
-
-class LapSteps(NamedTuple):
-    """A lap's steps as they can be used, and what was found about them.
-
-    Attributes
-    ----------
-    table
-        Columns of ``protocols.record.steps.STEP_COLUMNS``, then any others.
-    remarks
-        What was repaired, or is missing because it contradicts the lap, in words.
-    placement
-        Whether the positions are on the course; taken for granted in a study of our own.
-    """
-
-    table: pa.Table
-    remarks: tuple[str, ...]
-    placement: Placement
 
 
 @dataclass(frozen=True)
@@ -105,105 +75,35 @@ class Study:
     @property
     def participants(self) -> pa.Table:
         """One row per participant (``protocols.record.tables.PARTICIPANT_COLUMNS``)."""
-        return self._participants.table
+        return self._tables.participants.table
 
     @property
     def laps(self) -> pa.Table:
         """One row per lap begun (``protocols.record.tables.LAP_COLUMNS``)."""
-        return self._laps.table
+        return self._tables.laps.table
 
     @property
     def surveys(self) -> pa.Table:
         """One row per question asked; without rows when nothing was asked."""
-        return self._surveys.table
+        return self._tables.surveys.table
 
-    @cached_property
+    @property
     def remarks(self) -> tuple[str, ...]:
         """What of the tables was recognised although it is written otherwise, in words."""
-        found = [*self._participants.remarks, *self._laps.remarks]
-        if self.elsewhere:
-            found += doubtful_times(self.laps)
-        if self._shift:
-            found.append("step tables are counted from 0, laps from 1: matched in their order")
-        with suppress(InputError):  # said where the answers are read
-            found += self._surveys.remarks
-        return tuple(found)
+        return (*self._tables.remarks, *(self._foreign.remarks if self._foreign else ()))
 
-    @cached_property
+    @property
     def strays(self) -> tuple[str, ...]:
         """Step tables that no lap refers to, in words; those of our own studies have checksums."""
-        if not self.elsewhere:
-            return ()
-        people = self.participants["participant"].to_pylist()
-        laps = self._lap_numbers
-        owners = {
-            path: (who, {n - self._shift for n in laps.get(who, ())})
-            for who, path in self._folders.items()
-        }
-        found = list(strays(self.folder / SESSIONS, owners, people))
-        if odd := unusable_names(people):
-            found.append(
-                f"steps of people of whose id no folder can have the name ({', '.join(odd[:5])})"
-            )
-        return tuple(found)
+        return self._foreign.strays if self._foreign else ()
 
     @cached_property
-    def _participants(self) -> Conformed:
-        return self._table(PARTICIPANTS_TABLE, PARTICIPANTS)
+    def _tables(self) -> StudyTables:
+        return StudyTables(self.folder, self.header)
 
     @cached_property
-    def _laps(self) -> Conformed:
-        path = self.folder / LAPS_TABLE
-        laps = self._table(LAPS_TABLE, LAPS)
-        if self.elsewhere:
-            laps = joined_laps(laps, self.participants, self.protocol, path)
-        return with_practice(laps, self.protocol, path)
-
-    @cached_property
-    def _surveys(self) -> Conformed:
-        path = self.folder / SURVEYS_TABLE
-        if self.elsewhere and not path.exists():
-            nothing = pa.schema([pa.field(c.name, c.type) for c in SURVEYS.columns]).empty_table()
-            return conform(nothing, SURVEYS, path)
-        answers = self._table(SURVEYS_TABLE, SURVEYS)
-        if not self.elsewhere:
-            return answers
-        return joined_answers(answers, self.laps, self.participants, self.protocol, path)
-
-    @cached_property
-    def _folders(self) -> dict[str, Path]:
-        people = self.participants["participant"].to_pylist()
-        return folders_by_person(session_folders(self.folder), people)
-
-    @cached_property
-    def _lap_numbers(self) -> dict[str, list[int]]:
-        numbers: dict[str, list[int]] = {}
-        rows = zip(*(self.laps[c].to_pylist() for c in ("participant", "lap")), strict=True)
-        for who, lap in rows:
-            numbers.setdefault(who, []).append(lap)
-        return numbers
-
-    @cached_property
-    def _shift(self) -> int:
-        """What to subtract from a lap's number for its step table's."""
-        if not self.elsewhere:
-            return 0
-        laps = self._lap_numbers
-        return lap_shift({path: laps.get(who, ()) for who, path in self._folders.items()})
-
-    @cached_property
-    def _floor(self) -> Floor:
-        return Floor(self.course)
-
-    @cached_property
-    def _lasted(self) -> dict[tuple[str, int], tuple[bool, tuple[float, ...]]]:
-        """By lap, whether it was finished, and how long it took by any column that says so, s."""
-        columns = ("participant", "lap", "completed", "lap_time_s", "duration_s")
-        rows = zip(*(self.laps[c].to_pylist() for c in columns), strict=True)
-        return {
-            (who, lap): (done, tuple(s for s in times if s is not None and math.isfinite(s)))
-            for who, lap, done, *times in rows
-        }
+    def _foreign(self) -> ForeignSteps | None:
+        return ForeignSteps(self._tables) if self.elsewhere else None
 
     def sessions(self) -> tuple[str, ...]:
         """Return the participants with a session folder, sorted."""
@@ -231,7 +131,7 @@ class Study:
             When there is no such participant or lap (lists those there are), or the file is
             damaged (names it).
         """
-        if self.elsewhere:
+        if self._foreign:
             table = self.lap_steps(participant, lap).table
         else:
             table = self._recorded_steps(participant, lap, columns).table
@@ -255,37 +155,30 @@ class Study:
         InputError
             As ``steps``.
         """
-        table, remarks = self._recorded_steps(participant, lap, None)
-        if not self.elsewhere:
-            return LapSteps(table, (), Placement(on_course=True))
-        finished, lasted = self._lasted.get((participant, lap), (False, ()))
-        clock = lap_clock(_floats(table, "t_s"), lasted if against_lap else ())
-        place = table.schema.get_field_index("t_s")
-        table = table.set_column(place, "t_s", pa.array(clock.t_s))
-        xy = np.column_stack([_floats(table, "x_m"), _floats(table, "y_m")])
-        placement = self._floor.placement(xy, finished=finished)
-        said = tuple(r.removeprefix(f"{steps_file(lap - self._shift)}: ") for r in remarks)
-        incomplete = (INCOMPLETE,) if placement.on_course and not placement.whole else ()
-        return LapSteps(table, (*said, *clock.remarks, *incomplete), placement)
+        steps = self._recorded_steps(participant, lap, None)
+        if self._foreign is None:
+            return LapSteps(steps.table)
+        return self._foreign.used(steps, participant, lap, against_lap=against_lap)
+
+    def has_steps(self, participant: str, lap: int) -> bool:
+        """Tell whether a lap's steps were recorded: elsewhere, they may not have been."""
+        folder: Path | None = self.folder / SESSIONS / participant
+        if self._foreign:
+            folder = self._foreign.folders.get(participant)
+        return folder is not None and (folder / self._steps_file(lap)).is_file()
+
+    def _steps_file(self, lap: int) -> str:
+        return steps_file(lap - (self._foreign.shift if self._foreign else 0))
 
     def _recorded_steps(
         self, participant: str, lap: int, columns: Sequence[str] | None
     ) -> Conformed:
-        path = self._session(participant) / steps_file(lap - self._shift)
+        path = self._session(participant) / self._steps_file(lap)
         if not path.is_file():
-            known = [str(n + self._shift) for n in self._recorded_laps(participant)]
+            known = [str(n) for n in self._recorded_laps(participant)]
             raise InputError(f"{self.folder}: {participant} has no lap {lap}; {listed(known)}")
         wanted = None if columns is None else [*columns, *STEPS.required]
         return conform(read_parquet(path, wanted), STEPS, path, columns)
-
-    def has_steps(self, participant: str, lap: int) -> bool:
-        """Tell whether a lap's steps were recorded: elsewhere, they may not have been."""
-        folder = self.folder / SESSIONS / participant
-        if self.elsewhere:
-            if participant not in self._folders:
-                return False
-            folder = self._folders[participant]
-        return (folder / steps_file(lap - self._shift)).is_file()
 
     def model_bytes(self, participant: str) -> bytes | None:
         """Return the learned model as saved (npz); None when nothing was learnt."""
@@ -306,8 +199,8 @@ class Study:
         return tuple((distinct[key], count[key]) for key in sorted(count))
 
     def _session(self, participant: str) -> Path:
-        if self.elsewhere and participant in self._folders:
-            return self._folders[participant]
+        if self._foreign and participant in self._foreign.folders:
+            return self._foreign.folders[participant]
         path = self.folder / SESSIONS / participant
         # Listing thousands of sessions for every lap would cost more than reading it.
         if path.name != participant or is_partial(path) or not path.is_dir():
@@ -318,18 +211,8 @@ class Study:
     def _recorded_laps(self, participant: str) -> list[int]:
         names = (path.stem for path in self._session(participant).glob(steps_file("*")))
         laps = (name.rpartition("-")[2] for name in names)
-        return sorted(int(lap) for lap in laps if lap.isdigit())
-
-    def _table(self, name: str, rules: TableRules) -> Conformed:
-        path = self.folder / name
-        if not path.exists():
-            again = "; the same `lad-study run` again finishes the study"
-            raise InputError(f"{path}: no such file{'' if self.elsewhere else again}")
-        return conform(read_parquet(path), rules, path)
-
-
-def _floats(table: pa.Table, name: str) -> NDArray[np.float64]:
-    return np.asarray(table[name].to_numpy(), dtype=np.float64)
+        shift = self._foreign.shift if self._foreign else 0
+        return sorted(int(lap) + shift for lap in laps if lap.isdigit())
 
 
 def off_scale(study: Study) -> Iterator[tuple[int, str]]:

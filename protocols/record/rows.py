@@ -12,9 +12,11 @@ from typing import Any, Literal, get_args
 from protocols.condition import AssistantRole
 from protocols.instrument import Item
 
-EndReason = Literal["finished", "time_limit", "withdrew", "stopped", "disconnected", "interrupted"]
-"""Finished; too slow; the participant left; the experimenter stopped the lap; a person's
-connection was lost; the program ended in the middle."""
+EndReason = Literal[
+    "finished", "time_limit", "withdrew", "comfortable", "stopped", "disconnected", "interrupted"
+]
+"""Finished; too slow; the participant left; a participant ended a practice lap; the experimenter
+stopped the lap; a person's connection was lost; the program ended in the middle."""
 
 ASSISTANT_ROLES: tuple[AssistantRole, ...] = get_args(AssistantRole)
 
@@ -25,8 +27,8 @@ ENDS_SESSION: frozenset[EndReason] = frozenset({"withdrew", "interrupted"})
 
 
 def questions_follow(reason: str) -> bool:
-    """Return whether a lap's questions are asked: it was driven to its end or its time limit."""
-    return reason in {"finished", "time_limit"}
+    """Tell whether questions about a lap are asked: it was driven to its end or its time limit."""
+    return reason in {"finished", "time_limit", "comfortable"}
 
 
 def participant_id(number: int) -> str:
@@ -102,8 +104,23 @@ class LapRow:
     stop_reason: str | None = None
     pauses: int | None = None
     paused_s: float | None = None
+    late_share: float | None = None
+    input_age_p99_s: float | None = None
     last_segments: tuple[float, ...] | None = None
     place: int | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EventRow:
+    """Something that happened in a live session beside what was applied."""
+
+    participant: str
+    lap: int | None
+    step: int | None
+    utc: str
+    actor: str
+    event: str
+    note: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

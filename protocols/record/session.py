@@ -8,13 +8,14 @@ import pyarrow as pa
 
 from protocols.record.manifest import MANIFEST_FILE, manifest_of
 from protocols.record.parquet import parquet_bytes
-from protocols.record.rows import LapRow, ParticipantRow, SurveyRow
-from protocols.record.tables import LAP_SCHEMA, PARTICIPANT_SCHEMA, SURVEY_SCHEMA
+from protocols.record.rows import EventRow, LapRow, ParticipantRow, SurveyRow
+from protocols.record.tables import EVENT_SCHEMA, LAP_SCHEMA, PARTICIPANT_SCHEMA, SURVEY_SCHEMA
 
 PARTICIPANT_FILE = "participant_row.parquet"
 LAPS_FILE = "lap_rows.parquet"
 SURVEYS_FILE = "survey_rows.parquet"
 MODEL_FILE = "model.npz"
+EVENTS_FILE = "event_rows.parquet"
 
 
 def steps_file(lap: int | str) -> str:
@@ -50,12 +51,15 @@ class SessionRecord:
         One row per question asked, in order.
     model
         The learned model as saved (npz bytes); None when nothing was learnt.
+    events
+        What else happened; empty for a simulated session.
     """
 
     participant: ParticipantRow
     laps: tuple[RecordedLap, ...]
     answers: tuple[SurveyRow, ...] = ()
     model: bytes | None = None
+    events: tuple[EventRow, ...] = ()
 
 
 def encode(session: SessionRecord, study: str | None = None) -> dict[str, bytes]:
@@ -73,6 +77,8 @@ def encode(session: SessionRecord, study: str | None = None) -> dict[str, bytes]
         files[steps_file(lap.row.lap)] = parquet_bytes(lap.steps)
     if session.model is not None:
         files[MODEL_FILE] = session.model
+    if session.events:
+        files[EVENTS_FILE] = parquet_bytes(_rows(session.events, EVENT_SCHEMA))
     return files | {MANIFEST_FILE: manifest_of(files, study)}
 
 

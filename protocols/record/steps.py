@@ -25,6 +25,27 @@ _INPUTS = (
     ),
 )
 
+_LINK = (
+    Column("driver_device", pa.string(), "What a living driver steers with", "",
+           "keyboard, gamepad, touch", nullable=True, since=2),
+    Column("driver_sent_age_s", _F, "From the moment a living driver's newest input was sent to "
+           "the step, by the sender's clock", "s", nullable=True, since=2),
+    Column("driver_round_trip_s", _F, "Newest round trip to a living driver's machine", "s",
+           "0 or more", nullable=True, since=2),
+    Column("driver_frames", pa.int16(), "Pictures drawn on that machine since its last message",
+           "", "0 or more", nullable=True, since=2),
+    Column("driver_attentive", pa.bool_(), "Whether the living driver's page was visible and had "
+           "the focus", nullable=True, since=2),
+    Column("demonstrator_device", pa.string(), "What a living demonstrator steers with", "",
+           "keyboard, gamepad, touch", nullable=True, since=2),
+    Column("demonstrator_sent_age_s", _F, "As for the driver", "s", nullable=True, since=2),
+    Column("demonstrator_round_trip_s", _F, "As for the driver", "s", "0 or more", nullable=True,
+           since=2),
+    Column("demonstrator_v", _F, "A living demonstrator's stick forward, clutch or not, as a share "
+           "of full deflection", "", "-1 to 1", nullable=True, since=2),
+    Column("demonstrator_w", _F, "The same to the left", "", "-1 to 1", nullable=True, since=2),
+)  # fmt: skip
+
 STEP_COLUMNS: tuple[Column, ...] = (
     Column("step", pa.int32(), "Control step, counted from 0", "", "0 or more"),
     Column("t_s", _F, "Time from lap start to the start of the step", "s", "0 or more"),
@@ -73,6 +94,7 @@ STEP_COLUMNS: tuple[Column, ...] = (
            "simulated time", "s", "0 or more", nullable=True, since=2),
     Column("shift_s", _F, "By how much the lap's zero moved before the step because it was late; "
            "missing in simulated time", "s", "0 or more", nullable=True, since=2),
+    *_LINK,
     Column("result_x_m", _F, "Ground-truth position at the end of the step", "m", nullable=True,
            since=2),
     Column("result_y_m", _F, "Ground-truth position at the end of the step", "m", nullable=True,

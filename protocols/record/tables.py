@@ -67,6 +67,10 @@ LAP_COLUMNS: tuple[Column, ...] = (
            "0 or more", nullable=True, since=2),
     Column("paused_s", _F, "How long it was paused in all; not part of any other time", "s",
            "0 or more", nullable=True, since=2),
+    Column("late_share", _F, "Share of steps that started more than 50 ms late; missing in "
+           "simulated time", "", "0 to 1", nullable=True, since=2),
+    Column("input_age_p99_s", _F, "99th percentile of the age of a living driver's command; "
+           "missing for a simulated driver", "s", "0 or more", nullable=True, since=2),
     Column("last_segments", pa.list_(pa.field("element", _F)), "Laser segments after the last "
            "step, from right to left", "m", "0 to 4", nullable=True, since=2),
     Column("place", pa.int16(), "Position among the participant's analysed laps, counted from 1; "
@@ -87,6 +91,18 @@ SURVEY_COLUMNS: tuple[Column, ...] = (
            since=2),
 )  # fmt: skip
 
+EVENT_COLUMNS: tuple[Column, ...] = (
+    _ID,
+    Column("lap", pa.int16(), "Lap in which it happened; missing between laps", nullable=True),
+    Column("step", pa.int32(), "Control steps driven by then", nullable=True),
+    Column("utc", pa.string(), "When, ISO 8601 in UTC"),
+    Column("actor", pa.string(), "Who did it", "",
+           "participant, demonstrator, experimenter, program"),
+    Column("event", pa.string(), "What happened, e.g. pause, resume, connected, disconnected"),
+    Column("note", pa.string(), "Why, in words", nullable=True),
+)  # fmt: skip
+
+EVENT_SCHEMA = arrow_schema(EVENT_COLUMNS)
 PARTICIPANT_SCHEMA = arrow_schema(PARTICIPANT_COLUMNS)
 LAP_SCHEMA = arrow_schema(LAP_COLUMNS)
 SURVEY_SCHEMA = arrow_schema(SURVEY_COLUMNS)

@@ -53,7 +53,7 @@ class Dies(FileJournal):
     at = None
     def tick(self, *given):
         super().tick(*given)
-        if self.at is not None and not self.replayed:
+        if self.at is not None and not self.left:
             self.at -= 1
             if self.at < 0:
                 os.kill(os.getpid(), signal.SIGKILL)

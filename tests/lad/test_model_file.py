@@ -2,6 +2,8 @@
 
 import io
 import json
+import pickle
+import tracemalloc
 import zipfile
 
 import numpy as np
@@ -200,3 +202,76 @@ def test_a_failed_write_leaves_the_old_file(tmp_path, monkeypatch):
         trained(2).save(path)
     assert path.read_bytes() == before
     assert [one.name for one in tmp_path.iterdir()] == ["model.npz"]
+
+
+def _npz(**members):
+    """Return an npz with these members as they are given."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in members.items():
+            archive.writestr(f"{name}.npy", content)
+    return buffer.getvalue()
+
+
+def _claims(shape, dtype="<f8", content=b""):
+    """Return an npy that claims a shape."""
+    buffer = io.BytesIO()
+    header = {"shape": shape, "fortran_order": False, "descr": dtype}
+    np.lib.format.write_array_header_1_0(buffer, header)
+    return buffer.getvalue() + content
+
+
+class _Shell:
+    """Creates a file when it is unpickled."""
+
+    def __init__(self, proof):
+        self.proof = proof
+
+    def __reduce__(self):
+        return (open, (str(self.proof), "w"))
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        _npz(header=_claims((10**12,))),
+        _npz(header=_claims((10**6, 10**6, 10**6))),
+        _npz(header=_claims((-1,))),
+        _npz(header=_claims((4,), content=b"x" * 8)),
+        _npz(**{f"a{i}": _claims(()) for i in range(300)}),
+        _npz(header=b"\x93NUMPY\x07\x00"),
+        _npz(),
+    ],
+    ids=["huge", "absurd", "negative", "short", "many", "version", "empty"],
+)
+def test_what_a_file_claims_is_not_believed(content):
+    """No memory is asked for that the file does not fill."""
+    tracemalloc.start()
+    with pytest.raises(ModelFileError, match="not a saved model"):
+        unpack(content, "model", "m.npz")
+    assert tracemalloc.get_traced_memory()[1] < 20e6
+    tracemalloc.stop()
+
+
+def test_a_file_that_unfolds_without_end_is_refused(monkeypatch):
+    """Before it is unfolded."""
+    monkeypatch.setattr("lad.model_file.MAX_BYTES", 1_000_000)
+    bomb = _npz(header=bytes(50_000_000))
+    assert len(bomb) < 100_000
+    with pytest.raises(ModelFileError, match="not a saved model"):
+        unpack(bomb, "model", "m.npz")
+    with pytest.raises(ModelFileError, match="2000000 bytes; a model may have 1000000"):
+        unpack(bytes(2_000_000), "model", "m.npz")
+
+
+def test_no_code_in_a_file_is_run(tmp_path):
+    """An array of objects is a pickle, and is not opened."""
+    proof = tmp_path / "proof"
+    pickled = pickle.dumps(np.array([_Shell(proof)], dtype=object))
+    with pytest.raises(ModelFileError):
+        unpack(_npz(header=_claims((1,), "|O", pickled)), "model", "m.npz")
+    buffer = io.BytesIO()
+    np.savez(buffer, header=np.array([_Shell(proof)], dtype=object))
+    with pytest.raises(ModelFileError):
+        unpack(buffer.getvalue(), "model", "m.npz")
+    assert not proof.exists()

@@ -16,7 +16,15 @@ from participants.sight import Onlooker
 from participants.survey import Question
 from protocols.code_beside import PartBeside, code_digest
 from protocols.files.errors import InputError
-from protocols.shipped_parts import DEMONSTRATORS, DRIVERS, MODELS, RESPONDENTS, shipped_factory
+from protocols.load import load_course
+from protocols.shipped_parts import (
+    DEMONSTRATORS,
+    DRIVERS,
+    LIVE,
+    MODELS,
+    RESPONDENTS,
+    shipped_factory,
+)
 
 MODULE = """
 from lad.command import Command
@@ -62,12 +70,12 @@ def test_every_shipped_name_can_be_made(lab_office):
     """All drivers, demonstrators and respondents of the registry exist."""
     rng = np.random.default_rng(0)
     options = {"scripted": {"commands": [[0.0, 0.5, 0.0]]}}
-    for name in DRIVERS:
+    for name in set(DRIVERS) - {LIVE}:
         make_driver(name, DriverSetup(lab_office, rng, options=options.get(name, {})))
-    for name in DEMONSTRATORS:
+    for name in set(DEMONSTRATORS) - {LIVE}:
         who = make_demonstrator(name, DemonstratorSetup(lab_office, rng))
         assert isinstance(who, Onlooker)
-    for name in RESPONDENTS:
+    for name in set(RESPONDENTS) - {LIVE}:
         make_respondent(name, RespondentSetup((Question("driving-assistance", "Q1"),), rng))
 
 
@@ -155,3 +163,17 @@ def test_models_keep_the_names_of_earlier_versions():
     assert shipped_factory("model", "lad.trained:load")
     assert shipped_factory("driver", "lad.trained:load") is None
     assert shipped_factory("model", "lad.model_file:read") is None
+
+
+@pytest.mark.parametrize(
+    ("make", "setup"),
+    [
+        (make_driver, DriverSetup(load_course("lab-office"), np.random.default_rng(0))),
+        (make_demonstrator, DemonstratorSetup(load_course("lab-office"), np.random.default_rng(0))),
+        (make_respondent, RespondentSetup((), np.random.default_rng(0))),
+    ],
+)
+def test_a_living_person_needs_a_browser(make, setup):
+    """A simulated study that names one is refused in a line that says what to run."""
+    with pytest.raises(InputError, match="allowed: `lad-study live`"):
+        make(LIVE, setup)

@@ -78,7 +78,7 @@ def conform(
             remarks += (f"{path.name}: column {name} is {table[name].type}; it is left out",)
     ready = pa.Table.from_arrays(arrays, schema=pa.schema(fields))
     _check_ranges(ready, rules, path)
-    ready, repeated = _one_row_each(ready, rules, path)
+    ready, repeated = one_row_each(ready, rules, path)
     return Conformed(ready, (*remarks, *repeated))
 
 
@@ -150,10 +150,16 @@ def _within(values: pa.ChunkedArray, allowed: Range) -> pa.ChunkedArray:
     return right if allowed.high is None else pc.and_(right, pc.less_equal(values, allowed.high))
 
 
-def _one_row_each(
+def one_row_each(
     table: pa.Table, rules: TableRules, path: Path
 ) -> tuple[pa.Table, tuple[str, ...]]:
-    """Return the table with each row once; refuse two rows of one key that differ."""
+    """Return the table with each row once, and a remark where one was there more than once.
+
+    Raises
+    ------
+    InputError
+        When two rows of one key differ.
+    """
     key = list(rules.key)
     if not key or not set(key) <= set(table.column_names):
         return table, ()

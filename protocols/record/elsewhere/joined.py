@@ -7,7 +7,7 @@ import numpy as np
 import pyarrow as pa
 
 from protocols.files.errors import InputError
-from protocols.record.elsewhere.conform import Conformed
+from protocols.record.elsewhere.conform import Conformed, one_row_each
 from protocols.record.elsewhere.numbering import (
     contradictions,
     first_number,
@@ -16,6 +16,7 @@ from protocols.record.elsewhere.numbering import (
     with_known_conditions,
 )
 from protocols.record.elsewhere.people import with_known_ids
+from protocols.record.elsewhere.rules import LAPS, SURVEYS, TableRules
 from protocols.study import StudyProtocol
 
 _LONGEST = 3600.0
@@ -35,7 +36,7 @@ def joined_laps(
     InputError
         When nothing tells which laps are practice, or two columns of times contradict each other.
     """
-    table, remarks = _known(laps, participants, protocol, path)
+    table, remarks = _known(laps, LAPS, participants, protocol, path)
     _refuse_two_units(table, path)
     if first_number(table, protocol.laps) == 1:
         remarks.append(f"{path.name}: laps are counted from 1")
@@ -67,7 +68,7 @@ def joined_answers(
     path: Path,
 ) -> Conformed:
     """Return the answers of a study from elsewhere, matched with its participants and laps."""
-    table, remarks = _known(answers, participants, protocol, path)
+    table, remarks = _known(answers, SURVEYS, participants, protocol, path)
     table, renumbered = renumbered_answers(table, laps)
     if renumbered:
         remarks.append(f"{path.name}: {renumbered}")
@@ -80,7 +81,11 @@ def joined_answers(
 
 
 def _known(
-    given: Conformed, participants: pa.Table, protocol: StudyProtocol, path: Path
+    given: Conformed,
+    rules: TableRules,
+    participants: pa.Table,
+    protocol: StudyProtocol,
+    path: Path,
 ) -> tuple[pa.Table, list[str]]:
     table, remarks = given.table, list(given.remarks)
     table, rows = with_known_ids(table, participants["participant"].to_pylist())
@@ -92,6 +97,9 @@ def _known(
     table, renamed = with_known_conditions(table, protocol.conditions)
     if renamed:
         remarks.append(f"{path.name}: {renamed}")
+    if rows or renamed:  # two rows may have become one
+        table, repeated = one_row_each(table, rules, path)
+        remarks += repeated
     return table, remarks
 
 

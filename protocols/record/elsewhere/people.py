@@ -27,6 +27,19 @@ def same_people(known: Iterable[str]) -> dict[str, str]:
     return {one_form(name): name for name in known if count[one_form(name)] == 1}
 
 
+def twins(known: Iterable[str]) -> list[str]:
+    """Return the ids that differ from another one only in what nobody sees.
+
+    Examples
+    --------
+    >>> twins(["01", "02", "01 "])
+    ['01', "'01 '"]
+    """
+    known = list(known)
+    count = Counter(map(one_form, known))
+    return sorted((repr_if_odd(name) for name in known if count[one_form(name)] > 1), reverse=True)
+
+
 def with_known_ids(table: pa.Table, known: Iterable[str]) -> tuple[pa.Table, int]:
     """Return a table with the ids of the table of participants, and in how many rows they differed.
 

@@ -321,6 +321,15 @@ DEVIATIONS: dict[str, Deviation] = {
     "an answer again": Deviation(_row_again("surveys", lambda row: row), "same", "count once"),
     "a row again, otherwise": Deviation(
         _row_again("laps", lambda row: row | {"lap_time_s": 99.0}), "refused", "2 rows of"),
+    "a lap again, with a blank": Deviation(
+        _row_again("laps", lambda row: row | {"participant": f"{row['participant']} "}), "same",
+        "count once"),
+    "a lap again, with a blank, otherwise": Deviation(
+        _row_again("laps", lambda row: row | {
+            "participant": f"{row['participant']} ", "lap_time_s": 99.0}), "refused", "2 rows of"),
+    "a person again, with a blank": Deviation(
+        _row_again("participants", lambda row: row | {"participant": f"{row['participant']} "}),
+        "changed", "look alike: one person?"),
     "a column again": Deviation(
         _column_again("laps", "lap_time_s", lambda s: s), "same", "2 times with one content"),
     "a column again, otherwise": Deviation(

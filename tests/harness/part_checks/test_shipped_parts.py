@@ -9,7 +9,14 @@ import lad.baselines
 from harness.part_checks import CHECKS
 from harness.world.bullet_world import BulletWorld
 from participants.respondent import ordinal_respondent
-from protocols.shipped_parts import DEMONSTRATORS, DRIVERS, IMPAIRMENTS, MODELS, RESPONDENTS
+from protocols.shipped_parts import (
+    DEMONSTRATORS,
+    DRIVERS,
+    IMPAIRMENTS,
+    LIVE,
+    MODELS,
+    RESPONDENTS,
+)
 
 LOG = {"commands": [[0.0, 0.5, 0.0], [6.0, 0.3, 0.2]]}
 BASELINES = [
@@ -20,10 +27,10 @@ BASELINES = [
     "lad.baselines.network:make_refitted",
 ]
 PARTS = [
-    *(("driver", name, LOG if name == "scripted" else {}) for name in DRIVERS),
+    *(("driver", name, LOG if name == "scripted" else {}) for name in DRIVERS if name != LIVE),
     *(("impairment", name, {}) for name in IMPAIRMENTS),
-    *(("demonstrator", name, {}) for name in DEMONSTRATORS),
-    *(("respondent", name, {}) for name in RESPONDENTS),
+    *(("demonstrator", name, {}) for name in DEMONSTRATORS if name != LIVE),
+    *(("respondent", name, {}) for name in RESPONDENTS if name != LIVE),
     *(("assistant", name, {}) for name in (*MODELS, *BASELINES)),
 ]
 

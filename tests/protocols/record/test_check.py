@@ -4,13 +4,18 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
+from protocols.course.centreline import Centreline
 from protocols.load import resolve_study
 from protocols.record.check import check_study
 from protocols.record.manifest import MANIFEST_FILE, manifest_of
 from protocols.record.session import SessionRecord, encode
 from protocols.record.store import build_tables, open_folder, write_failure, write_session
+from protocols.resolved import ResolvedStudy
 
 
 def test_a_finished_study_has_no_faults(folder: Path):
@@ -80,10 +85,18 @@ def test_a_steps_file_of_no_lap_is_told(tmp_path: Path, make_session: Callable[.
     assert "steps-7.parquet: of a lap without a row" in stray
 
 
-def test_a_study_recorded_elsewhere_is_read_whole(ward: Path):
-    """It has no checksums: that every table can be read is what can be said."""
+def test_a_study_recorded_elsewhere_is_read_whole(ward: Path, plan: ResolvedStudy):
+    """It has no checksums: its tables are held against one another and against the course."""
+    clock, place = check_study(ward)
+    assert "t_s does not last as long as the lap" in clock
+    assert "positions of 1 lap do not fit the course" in place
+    line, path = Centreline(plan.course), ward / "sessions" / "Ann" / "steps-1.parquet"
+    t = np.arange(0, 45, 0.1)
+    way = [line.point(arc) for arc in t / 45 * line.length]
+    steps = {"t_s": t, "x_m": [p.x for p in way], "y_m": [p.y for p in way]}
+    pq.write_table(pa.table(steps), path)
     assert check_study(ward) == ()
-    (ward / "sessions" / "Ann" / "steps-1.parquet").write_bytes(b"PAR1")
+    path.write_bytes(b"PAR1")
     (fault,) = check_study(ward)
     assert "steps-1.parquet: not a readable Parquet file" in fault
 

@@ -62,3 +62,18 @@ def test_a_missing_file_or_a_folder_is_named(tmp_path: Path):
         read_parquet(tmp_path / "t.parquet")
     with pytest.raises(InputError, match="not a readable Parquet file"):
         read_parquet(tmp_path)
+
+
+def test_a_table_of_absurd_dimensions_is_refused_before_it_is_read(tmp_path, monkeypatch):
+    """A small file may stand for more rows than memory holds."""
+    rows = pa.table({"a": pa.DictionaryArray.from_arrays(pa.array([0] * 1000), ["x"])})
+    (tmp_path / "t.parquet").write_bytes(parquet_bytes(rows))
+    monkeypatch.setattr("protocols.record.parquet.MAX_ROWS", 999)
+    for read in (read_parquet, parquet_shape):
+        with pytest.raises(InputError, match=r"says it has 1000 rows; allowed: up to 999"):
+            read(tmp_path / "t.parquet")
+    monkeypatch.setattr("protocols.record.parquet.MAX_ROWS", 1000)
+    assert read_parquet(tmp_path / "t.parquet").num_rows == 1000
+    monkeypatch.setattr("protocols.record.parquet.MAX_BYTES", 10)
+    with pytest.raises(InputError, match="bytes when unpacked"):
+        read_parquet(tmp_path / "t.parquet")

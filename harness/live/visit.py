@@ -1,0 +1,430 @@
+"""One live session: a thread that runs it, and the hands that others may lay on it."""
+
+import threading
+import traceback
+from collections import deque
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from harness.live.mailbox import Mailbox
+from harness.session.borrowed import make_all_parts
+from harness.session.clock import Clock, LapStoppedError, StopReason, VirtualClock, WallClock
+from harness.session.journal import FileJournal
+from harness.session.lap import LapParts, Step
+from harness.session.parts import Seats, SessionParts
+from harness.session.replay import (
+    ReplayedClock,
+    ReplayedDemonstrator,
+    ReplayedDriver,
+    ReplayedReader,
+    ReplayedRespondent,
+    is_next,
+)
+from harness.session.session import Session
+from harness.session.stages import Stage
+from harness.session.study_run import StudyRun
+from harness.world.world import World
+from participants.driver import WithdrewError, kind_of
+from participants.live.demonstrator import LiveDemonstrator
+from participants.live.pages import LiveReader, LiveRespondent
+from participants.live.seat import Request
+from protocols.record.journal import journal_header, read_journal
+from protocols.record.rows import EventRow, LapRow, participant_id
+from protocols.record.session import SessionRecord
+from protocols.record.sessions import model_before
+
+GRACE_S = 2.0
+"""A lap is paused this long after its person's connection was lost: the chair stands by then."""
+
+TRAIL = 4000
+"""Steps that the console's plan shows."""
+
+
+@dataclass(frozen=True, slots=True)
+class Visitors:
+    """Which seats of a visit are living people's.
+
+    Attributes
+    ----------
+    participant
+        Whether a living person drives, answers or reads.
+    demonstrator
+        Whether a living person demonstrates.
+    """
+
+    participant: bool
+    demonstrator: bool
+
+
+def visitors_of(run: StudyRun) -> Visitors:
+    """Return which seats a study's protocol gives to living people."""
+    cohort = run.study.protocol.cohort
+    respondent, demonstrator = cohort.respondent, cohort.demonstrator
+    answers = respondent is not None and respondent.use == "live"
+    return Visitors(
+        participant=cohort.driver.use == "live" or answers,
+        demonstrator=demonstrator is not None and demonstrator.use == "live",
+    )
+
+
+class Visit:
+    """One participant's live session.
+
+    Parameters
+    ----------
+    run, number
+        The study, and the participant, counted from 1.
+    journal
+        Where its journal is kept; its folder exists.
+    make_world
+        Called on the session's own thread.
+    finish
+        Called on that thread with the record, once the session is over.
+    fail
+        Called on that thread with a traceback, when the session cannot go on.
+    lockstep
+        Whether time is simulated and each step waits for its input: for tests, never for people.
+
+    Attributes
+    ----------
+    participant, demonstrator
+        Their seats.
+    abandoned
+        Whether an earlier process began the session: the next browser without a seat gets it.
+    """
+
+    def __init__(
+        self,
+        run: StudyRun,
+        number: int,
+        journal: Path,
+        make_world: Callable[[], World],
+        *,
+        finish: Callable[["Visit", SessionRecord], None],
+        fail: Callable[["Visit", str], None],
+        lockstep: bool = False,
+    ) -> None:
+        self.name = participant_id(number)
+        self._run, self._number, self._path = run, number, journal
+        self._make_world, self._finish, self._fail = make_world, finish, fail
+        self._living = visitors_of(run)
+        self.participant = Mailbox(
+            lockstep=lockstep, on_change=lambda there: self._came("participant", there)
+        )
+        self.demonstrator = Mailbox(
+            lockstep=lockstep, on_change=lambda there: self._came("demonstrator", there)
+        )
+        self._clock: Clock = VirtualClock() if lockstep else WallClock()
+        self._journal: FileJournal | None = None
+        self._stage: Stage | None = None
+        self._step: Step | None = None
+        self._steps = 0
+        self._trail: deque[tuple[float, float, str]] = deque(maxlen=TRAIL)
+        self._late_s = 0.0
+        self._paused_by: set[str] = set()
+        self._timer: threading.Timer | None = None
+        self._events: deque[dict[str, Any]] = deque(maxlen=50)
+        self._again = False
+        self.abandoned = journal.exists()
+        self.state = "waiting"
+        self._thread = threading.Thread(target=self._guarded, name=self.name, daemon=True)
+
+    def start(self) -> None:
+        """Begin, or go on where an earlier process was."""
+        self._thread.start()
+
+    def join(self, timeout: float | None = None) -> None:
+        """Wait until the session is over."""
+        self._thread.join(timeout)
+
+    @property
+    def over(self) -> bool:
+        """Whether the session has ended."""
+        return self.state in {"finished", "failed", "interrupted"}
+
+    def wants_demonstrator(self) -> bool:
+        """Tell whether a demonstrator stays with this session."""
+        return not self.over and self.needs_demonstrator
+
+    @property
+    def needs_demonstrator(self) -> bool:
+        """Whether a living demonstrator has something to do in the stage at hand."""
+        if not self._living.demonstrator or self._stage is None or self._stage.planned is None:
+            return False
+        protocol = self._run.study.protocol
+        helped = protocol.conditions[self._stage.planned.condition].assistant == "demonstrator"
+        return self._stage.kind == "lap" and (helped or protocol.live.shadow)
+
+    # What the experimenter, the participant and the network do --------------------------
+
+    def pause(self, actor: str, note: str | None = None) -> None:
+        """Hold the lap before its next step."""
+        self._paused_by.add(actor)
+        self.event(actor, "pause", note)
+        if isinstance(self._clock, WallClock):
+            self._clock.pause()
+
+    def resume(self, actor: str, note: str | None = None) -> None:
+        """Go on, unless someone else has paused the lap too."""
+        self._paused_by.discard(actor)
+        self.event(actor, "resume", note)
+        if not self._paused_by and isinstance(self._clock, WallClock):
+            self._clock.resume()
+
+    def stop(self, actor: str, reason: StopReason, note: str | None = None) -> None:
+        """End the lap before its next step."""
+        self.event(actor, f"stop ({reason})", note)
+        if isinstance(self._clock, WallClock):
+            self._clock.stop(reason, note)
+
+    def repeat(self, actor: str, note: str | None = None) -> None:
+        """End the lap, and have it driven once more."""
+        self._again = True
+        self.stop(actor, "stopped", note)
+
+    def skip(self, actor: str, note: str | None = None) -> None:
+        """Go on to the next stage: a lap is stopped, a page stays unanswered."""
+        if self._in_lap():
+            self.stop(actor, "stopped", note)
+        else:
+            self.event(actor, "skip", note)
+            self.participant.skip()
+
+    def comfortable(self) -> None:
+        """Have the participant end a practice lap, where the protocol allows it."""
+        planned = self._stage.planned if self._stage else None
+        if self._in_lap() and planned is not None and planned.until_comfortable:
+            self.stop("participant", "comfortable")
+
+    def end(self, note: str | None = None, *, actor: str = "experimenter") -> None:
+        """End the session: what was done is kept."""
+        self.event(actor, "end", note)
+        stop = LapStoppedError("interrupted", note)
+        for seat in (self.participant, self.demonstrator):
+            seat.end(stop)
+        if isinstance(self._clock, WallClock):
+            self._clock.stop("interrupted", note)
+
+    def withdraw(self, actor: str, reason: str) -> None:
+        """Have the participant leave: the session ends."""
+        self.event(actor, "withdraw", reason)
+        self.participant.withdraw(reason)
+        if isinstance(self._clock, WallClock):
+            self._clock.resume()
+
+    def event(self, actor: str, event: str, note: str | None = None) -> None:
+        """Record that something happened."""
+        lap = self._stage.lap if self._stage else None
+        entry = {
+            "lap": lap,
+            "step": self._steps if lap is not None else None,
+            "utc": datetime.now(UTC).isoformat(timespec="milliseconds"),
+            "actor": actor,
+            "event": event,
+            "note": note or None,
+        }
+        self._events.append(entry)
+        if self._journal is not None:
+            self._journal.event(entry)
+
+    def snapshot(self) -> dict[str, Any]:
+        """Return what the console shows of this session."""
+        step, stage = self._step, self._stage
+        shown: dict[str, Any] = {
+            "participant": self.name,
+            "state": self.state,
+            "stage": stage.kind if stage else None,
+            "lap": stage.lap if stage else None,
+            "condition": stage.planned.condition if stage and stage.planned else None,
+            "paused": sorted(self._paused_by),
+            "connected": {
+                "participant": self.participant.connected,
+                "demonstrator": self.demonstrator.connected,
+            },
+            "round_trip_s": {
+                "participant": self.participant.round_trip_s,
+                "demonstrator": self.demonstrator.round_trip_s,
+            },
+            "late_s": self._late_s,
+            "events": list(self._events)[-12:],
+        }
+        if step is not None and stage is not None and stage.kind == "lap":
+            shown |= _driven(step)
+        return shown
+
+    def trail(self) -> list[tuple[float, float, str]]:
+        """Return where the chair has been in this lap, and who was in control."""
+        return list(self._trail)
+
+    def _came(self, role: str, there: bool) -> None:
+        """Note that a person's connection came or went, and hold the lap for a lost one."""
+        self.event(role, "connected" if there else "disconnected")
+        if self._timer is not None:
+            self._timer.cancel()
+        on_interruption = self._run.study.protocol.live.on_interruption
+        if there and f"lost {role}" in self._paused_by:
+            self.resume(f"lost {role}")
+        elif not there and role == "participant" and self._in_lap():
+            self._timer = threading.Timer(GRACE_S, self._lost, (role, on_interruption))
+            self._timer.daemon = True
+            self._timer.start()
+
+    def _lost(self, role: str, on_interruption: str) -> None:
+        if self.participant.connected or not self._in_lap():
+            return
+        if on_interruption == "resume":
+            self.pause(f"lost {role}")
+        else:
+            self.stop("program", "disconnected", f"the {role}'s connection was lost")
+
+    def _in_lap(self) -> bool:
+        return self.state == "running" and self._stage is not None and self._stage.kind == "lap"
+
+    # The session's thread ---------------------------------------------------------------
+
+    def record(self, step: Step) -> None:
+        """Keep what the console shows of a step."""
+        self._step, self._steps = step, self._steps + 1
+        pose = step.result.pose
+        self._trail.append((round(pose.x, 3), round(pose.y, 3), step.control))
+        if step.timing is not None:
+            self._late_s = step.timing.late_s
+
+    def _guarded(self) -> None:
+        try:
+            record = self._visit()
+        except BaseException:  # noqa: BLE001  # whatever it is, the others' sessions go on
+            self.state = "failed"
+            self._fail(self, traceback.format_exc())
+            return
+        self.state = "finished"
+        self._finish(self, record)
+
+    def _visit(self) -> SessionRecord:
+        run, name = self._run, self.name
+        self._journal = FileJournal(self._path, journal_header(run.study, run.seed, name))
+        seats = Seats(
+            self.participant if self._living.participant else None,
+            _DemonstratorsSeat(self) if self._living.demonstrator else None,
+        )
+        world = self._make_world()
+        lent = replace(run, previous=model_before(self._path.parents[1], self._number))
+        parts = make_all_parts(lent, self._number, world, seats)
+        people, clock = self._with_journal(parts, self._journal)
+        session = Session(
+            run, self._number, world, people,
+            clock=clock, journal=self._journal, watch=self, repeats=self._repeats,
+        )  # fmt: skip
+        self.state = "running"
+        if self._living.participant and not self._journal.left and not self._fit():
+            session.end()
+        while not session.over:
+            self._stage, self._steps, self._step = session.stages[session.done], 0, None
+            planned = self._stage.planned
+            practice = planned is not None and planned.until_comfortable
+            self.participant.beside = {"practice": practice}
+            self._trail.clear()
+            session.advance()
+            self._journal.sync()
+        self._stage = None
+        journal, self._journal = self._journal, None  # what comes later is not the session's
+        journal.close()
+        return replace(session.record(), events=events_of(self._path, name))
+
+    def _fit(self) -> bool:
+        """Have the participant's machine checked; tell whether the session may begin."""
+        rules = self._run.study.protocol.live.machine_check
+        try:
+            measured = self.participant.ask(Request("check"))
+        except (WithdrewError, LapStoppedError):
+            return False
+        rate = measured.get("frame_rate")
+        trip = self.participant.round_trip_s
+        slow = isinstance(rate, int | float) and rate < rules.min_frame_rate
+        far = trip is not None and 1000 * trip > rules.max_round_trip_ms
+        found = ", ".join(f"{name} {value}" for name, value in sorted(measured.items()))
+        self.event("program", "machine check failed" if slow or far else "machine check", found)
+        return rules.rule == "flag" or not (slow or far)
+
+    def _repeats(self, row: LapRow) -> bool:
+        """Tell whether a lap is driven once more: as ordered, or as the protocol has it."""
+        if self._journal is not None and self._journal.left:
+            return is_next(self._journal, "repeat")
+        ordered, self._again = self._again, False
+        restarts = self._run.study.protocol.live.on_interruption == "restart"
+        return ordered or (restarts and row.end_reason == "disconnected")
+
+    def _with_journal(
+        self, parts: SessionParts, journal: FileJournal
+    ) -> tuple[SessionParts, Clock]:
+        """Return parts and a clock that first repeat what an earlier process has noted."""
+        driver, demonstrator = parts.lap.driver, parts.lap.demonstrator
+        if kind_of(driver) == "live":
+            driver = ReplayedDriver(journal, driver, driver)
+        if isinstance(demonstrator, LiveDemonstrator):
+            demonstrator = ReplayedDemonstrator(journal, demonstrator)
+        respondent, reader = parts.respondent, parts.reader
+        if isinstance(respondent, LiveRespondent):
+            respondent = ReplayedRespondent(journal, respondent)
+        if isinstance(reader, LiveReader):
+            reader = ReplayedReader(journal, reader)
+        lap = LapParts(driver, demonstrator, parts.lap.model)
+        people = replace(parts, lap=lap, respondent=respondent, reader=reader)
+        return people, ReplayedClock(journal, self._clock, self._come_back)
+
+    def _come_back(self) -> None:
+        """Wait until the participant is back in a lap that a stopped program interrupted."""
+        protocol = self._run.study.protocol
+        self.event("program", "restarted", "the program had stopped in the middle of a lap")
+        if protocol.live.on_interruption != "resume":
+            raise LapStoppedError("disconnected", "the program had stopped in this lap")
+        if self._living.participant:
+            self.participant.ask(Request("ready", {"resumed": True}))
+
+
+class _DemonstratorsSeat:
+    """A demonstrator's seat: nobody waits for it where it has nothing to do."""
+
+    def __init__(self, visit: Visit) -> None:
+        self._visit, self._mailbox = visit, visit.demonstrator
+        self.latest, self.withdrawal = self._mailbox.latest, self._mailbox.withdrawal
+
+    def show(self, picture: Mapping[str, Any]) -> None:
+        """Show the lap, where the demonstrator is to see it."""
+        if self._visit.needs_demonstrator:
+            self._mailbox.show(picture)
+
+    def ask(self, request: Request) -> Mapping[str, Any]:
+        """Wait for a demonstrator where one is needed."""
+        if not self._visit.needs_demonstrator:
+            return {}
+        return self._mailbox.ask(request)
+
+
+def _driven(step: Step) -> dict[str, Any]:
+    model, demonstrator = step.model, step.demonstrator
+    return {
+        "t": step.result.t,
+        "pose": list(step.result.pose),
+        "velocity": list(step.result.velocity),
+        "intent": list(step.intent),
+        "demonstrator": list(demonstrator.command)
+        if demonstrator and demonstrator.command
+        else None,
+        "control": step.control,
+        "p_help": model.p_help,
+        "variance": model.variance,
+        "input_age_s": step.input_age_s,
+        "clearance_m": step.result.clearance_m,
+    }
+
+
+def events_of(path: Path, participant: str) -> tuple[EventRow, ...]:
+    """Return the events that a journal holds."""
+    entries = read_journal(path).entries
+    return tuple(
+        EventRow(participant=participant, **entry["event"]) for entry in entries if "event" in entry
+    )

@@ -1,0 +1,52 @@
+"""What each role is shown in a step, as plain data: nothing that the role must not know."""
+
+from typing import Any
+
+from lad.command import Command
+from participants.sight import Sight
+from protocols.pose import Pose
+
+
+def _pose(pose: Pose) -> list[float]:
+    return [float(pose.x), float(pose.y), float(pose.heading)]
+
+
+def _pair(command: Command) -> list[float]:
+    return [float(command.v), float(command.w)]
+
+
+def driver_picture(sight: Sight) -> dict[str, Any]:
+    """Return what the person in the chair sees and feels.
+
+    Not in it: the condition, who helps, the model's p(h), clearance, the laser's readings.
+    """
+    return {
+        "t": float(sight.t),
+        "pose": _pose(sight.pose),
+        "velocity": _pair(sight.velocity),
+        "gates": int(sight.gates_passed),
+        "helped": bool(sight.helped),
+        "contact": bool(sight.contact),
+    }
+
+
+def demonstrator_picture(
+    sight: Sight, stick: Command, *, p_help: float | None = None
+) -> dict[str, Any]:
+    """Return what a demonstrator watches: the chair, the participant's stick, the laser.
+
+    Parameters
+    ----------
+    sight
+        What there is to see.
+    stick
+        The participant's command, as limited.
+    p_help
+        The model's p(h = 1 | x), where the protocol lets a demonstrator see it.
+    """
+    picture = {
+        **driver_picture(sight),
+        "stick": _pair(stick),
+        "ranges": [round(float(value), 3) for value in sight.ranges],
+    }
+    return picture if p_help is None else {**picture, "p_help": float(p_help)}

@@ -1,0 +1,124 @@
+"""The step tables of a study that other programs recorded, matched with its laps."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pyarrow as pa
+from numpy.typing import NDArray
+
+from protocols.record.elsewhere.clock import lap_clock
+from protocols.record.elsewhere.conform import Conformed
+from protocols.record.elsewhere.folders import folders_by_person, lap_shift, strays, unusable_names
+from protocols.record.elsewhere.placement import INCOMPLETE, Floor, Placement
+from protocols.record.sessions import SESSIONS, session_folders
+from protocols.record.study_tables import StudyTables
+
+
+class LapSteps(NamedTuple):
+    """A lap's steps as they can be used, and what was found about them.
+
+    Attributes
+    ----------
+    table
+        Columns of ``protocols.record.steps.STEP_COLUMNS``, then any others.
+    remarks
+        What was repaired, or is missing because it contradicts the lap, in words.
+    placement
+        Whether the positions are on the course; taken for granted in a study of our own.
+    """
+
+    table: pa.Table
+    remarks: tuple[str, ...] = ()
+    placement: Placement = Placement(on_course=True)
+
+
+class _Lasted(NamedTuple):
+    """Whether a lap was finished, and how long it took by any column that says so, s."""
+
+    finished: bool = False
+    seconds: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class ForeignSteps:
+    """Where the step tables of a study from elsewhere are, and how they are to be read."""
+
+    tables: StudyTables
+
+    @cached_property
+    def folders(self) -> dict[str, Path]:
+        """Each participant's session folder, of those who have one."""
+        return folders_by_person(session_folders(self.tables.folder), self.tables.people)
+
+    @cached_property
+    def shift(self) -> int:
+        """What to subtract from a lap's number for its step table's."""
+        laps = self.tables.lap_numbers
+        return lap_shift({path: laps.get(who, ()) for who, path in self.folders.items()})
+
+    @cached_property
+    def strays(self) -> tuple[str, ...]:
+        """Step tables that no lap refers to, in words."""
+        laps = self.tables.lap_numbers
+        owners = {
+            path: (who, {n - self.shift for n in laps.get(who, ())})
+            for who, path in self.folders.items()
+        }
+        found = list(strays(self.tables.folder / SESSIONS, owners, self.tables.people))
+        if odd := unusable_names(self.tables.people):
+            found.append(
+                f"steps of people of whose id no folder can have the name ({', '.join(odd[:5])})"
+            )
+        return tuple(found)
+
+    @cached_property
+    def remarks(self) -> tuple[str, ...]:
+        """What was repaired for all of them, in words."""
+        said = "step tables are counted from 0, laps from 1: matched in their order"
+        return (said,) if self.shift else ()
+
+    def used(self, steps: Conformed, participant: str, lap: int, *, against_lap: bool) -> LapSteps:
+        """Return a lap's steps with times from its start, and where its positions lie.
+
+        Parameters
+        ----------
+        steps
+            As they were read.
+        participant, lap
+            Of which lap.
+        against_lap
+            Whether times are missing that contradict how long the lap took.
+        """
+        lasted = self._lasted.get((participant, lap), _Lasted())
+        table = steps.table
+        clock = lap_clock(_floats(table, "t_s"), lasted.seconds if against_lap else ())
+        table = table.set_column(
+            table.schema.get_field_index("t_s"), "t_s", pa.array(clock.t_s, from_pandas=False)
+        )
+        xy = np.column_stack([_floats(table, "x_m"), _floats(table, "y_m")])
+        placement = self._floor.placement(xy, finished=lasted.finished)
+        said = [remark.partition(": ")[2] for remark in steps.remarks]
+        if placement.on_course and not placement.whole:
+            said.append(INCOMPLETE)
+        return LapSteps(table, (*clock.remarks, *said), placement)
+
+    @cached_property
+    def _floor(self) -> Floor:
+        return Floor(self.tables.header.course)
+
+    @cached_property
+    def _lasted(self) -> dict[tuple[str, int], _Lasted]:
+        columns = ("participant", "lap", "completed", "lap_time_s", "duration_s")
+        rows = zip(*(self.tables.laps.table[c].to_pylist() for c in columns), strict=True)
+        return {
+            (who, lap): _Lasted(done, tuple(s for s in times if s and math.isfinite(s)))
+            for who, lap, done, *times in rows
+        }
+
+
+def _floats(table: pa.Table, name: str) -> NDArray[np.float64]:
+    return np.asarray(table[name].to_numpy(), dtype=np.float64)
