@@ -77,14 +77,24 @@ class StudyFrames:
         return bool((self.participants["kind"] == "synthetic").any())
 
 
-def study_frames(study: Study) -> StudyFrames:
-    """Return the tables of a study, and those who are analysed."""
+def study_frames(study: Study, keep: Iterable[str] = ()) -> StudyFrames:
+    """Return the tables of a study, and those who are analysed.
+
+    Parameters
+    ----------
+    study
+        The study.
+    keep
+        Participants who are analysed although a rule excludes them: for an analysis that shows
+        what the rule does.
+    """
     all_laps = as_frame(study.laps)
     exclusions = exclusions_of(study, all_laps[~practised(all_laps)])
     everybody = as_frame(study.participants).assign(
         excluded=exclusions.excluded, exclusion_reason=pd.Series(exclusions.reasons, dtype=object)
     )
-    kept = everybody[~excluded(everybody) & ~refused(everybody)]
+    out = excluded(everybody) & ~everybody["participant"].isin(list(keep))
+    kept = everybody[~out & ~refused(everybody)]
     parts = condition_roles(study.protocol)
     laps = counted_laps(study, kept["participant"])
     laps = laps[laps["condition"].isin([part.condition for part in parts])]

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import pandas as pd
 
 from analysis.frames import StudyFrames, as_frame, counted_answers, counted_laps
+from protocols.laps import WHOLE_SESSION
 from protocols.record.elsewhere.people import strangers
 
 
@@ -51,9 +52,10 @@ def _strangers(frames: StudyFrames, rows: pd.DataFrame, what: str) -> Iterator[s
 
 
 def _conditions(frames: StudyFrames, rows: pd.DataFrame, what: str) -> Iterator[str]:
-    study = set(frames.study.protocol.conditions)
+    study = {*frames.study.protocol.conditions, WHOLE_SESSION}
     yield from _unknown(rows["condition"], study, what, "conditions")
-    unplanned = rows["condition"].isin(study) & ~rows["condition"].isin(frames.conditions)
+    used = [*frames.conditions, WHOLE_SESSION]
+    unplanned = rows["condition"].isin(study) & ~rows["condition"].isin(used)
     if unplanned.any():
         names = _names(rows.loc[unplanned, "condition"])
         n = _number(int(unplanned.sum()), what)

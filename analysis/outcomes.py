@@ -2,6 +2,7 @@
 
 import pandas as pd
 
+from analysis.composites import answered, scores_by_participant
 from analysis.frames import StudyFrames
 from protocols.declared import Comparison
 
@@ -26,13 +27,30 @@ def by_participant(frames: StudyFrames, outcome: str) -> pd.DataFrame:
 
 
 def answers_by_participant(frames: StudyFrames, instrument: str, item: str) -> pd.DataFrame:
-    """Return the answers to an item: rows participants, columns conditions.
+    """Return the answers to an item, or a composite score: rows participants, columns conditions.
 
     Where a condition was driven more than once, the last answer counts (``StudyFrames.surveys``).
+
+    Parameters
+    ----------
+    frames
+        The study.
+    instrument
+        An instrument's name.
+    item
+        One of its items, or else of its subscales.
     """
+    asked = frames.study.header.study.instrument(instrument)
+    if not any(known.id == item for known in asked.items):
+        return scores_by_participant(frames, asked, item)
+    return wide_answers(frames, instrument, item)
+
+
+def wide_answers(frames: StudyFrames, instrument: str, item: str) -> pd.DataFrame:
+    """Return the answers to one item: rows participants, columns conditions."""
     surveys = frames.surveys
     asked = surveys[(surveys["instrument"] == instrument) & (surveys["item"] == item)]
-    return _wide(frames, asked.assign(value=pd.to_numeric(asked["response"]).astype("float64")))
+    return _wide(frames, asked.assign(value=answered(asked)))
 
 
 def outcome_of(frames: StudyFrames, comparison: Comparison) -> pd.DataFrame:

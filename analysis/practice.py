@@ -9,6 +9,7 @@ import pandas as pd
 
 from analysis.frames import StudyFrames
 from analysis.order import part_of
+from analysis.place import with_place
 from analysis.roles import reference_condition
 from analysis.stats.mixed_model import lap_time_design
 from analysis.stats.result import TestResult
@@ -23,7 +24,7 @@ def order_confounded(frames: StudyFrames) -> bool:
     reference = reference_condition(frames.parts)
     if reference is None or timed["condition"].nunique() < 2:
         return False
-    return not lap_time_design(timed, reference).with_lap
+    return not lap_time_design(with_place(timed), reference).with_place
 
 
 def other_orders(frames: StudyFrames) -> tuple[int, int]:

@@ -13,11 +13,16 @@ from analysis.comparisons import (
 )
 from analysis.flow import Flow, participants_flow
 from analysis.frames import StudyFrames, study_frames
+from analysis.groups import GroupResults, group_results
 from analysis.lap_records import LapRecords, read_laps
 from analysis.maps import participant_maps, plan_grid
+from analysis.outcome_exclusion import without_the_rule
+from analysis.place import with_place
 from analysis.practice import practice_table
 from analysis.randomness import generator
+from analysis.registration import Registered, registered_plan
 from analysis.roles import first, reference_condition
+from analysis.stats.carry_over import carry_over
 from analysis.stats.map_overlap import map_overlap
 from analysis.stats.mixed_model import lap_time_model
 from analysis.stats.own_contrasts import own_contrasts
@@ -61,6 +66,15 @@ class StudyResults:
         Conditions in which nobody finished a lap.
     declared
         Comparisons the protocol declares.
+    without_rule
+        The same with those kept whom ``min_completed_laps`` excludes; empty where it excludes no
+        one.
+    groups
+        Groups of participants compared; None for a study without groups.
+    registered
+        What was registered against what was done; None for a study without a registration.
+    carry_over
+        How much a condition changes the next lap; empty where the design does not identify it.
     lap_times
         Lap times of every two conditions, declared or not.
     model
@@ -82,6 +96,10 @@ class StudyResults:
     records: LapRecords
     unfinished: tuple[NobodyFinished, ...]
     declared: tuple[PairedComparison, ...]
+    without_rule: tuple[PairedComparison, ...]
+    carry_over: tuple[TestResult, ...]
+    groups: GroupResults | None
+    registered: Registered | None
     lap_times: tuple[PairedComparison, ...]
     model: tuple[TestResult, ...]
     contrasts: tuple[TestResult, ...]
@@ -119,12 +137,17 @@ def analyse(study: Study, progress: Progress | None = None, jobs: int = 1) -> St
     model, contrasts = _model(frames), _contrasts(frames)
     surveys = tuple(_survey(frames, instrument) for instrument in study.instruments)
     measures = measure_table(frames, records)
+    declared = declared_comparisons(frames)
     return StudyResults(
         frames=frames,
         flow=participants_flow(frames),
         records=records,
         unfinished=nobody_finished(study),
-        declared=declared_comparisons(frames),
+        declared=declared,
+        without_rule=without_the_rule(frames),
+        carry_over=_carry_over(frames),
+        groups=group_results(frames),
+        registered=registered_plan(frames, declared),
         lap_times=lap_times,
         model=model,
         contrasts=contrasts,
@@ -142,7 +165,13 @@ def _model(frames: StudyFrames) -> tuple[TestResult, ...]:
     reference = reference_condition(frames.parts)
     if reference is None:
         return ()
-    return lap_time_model(frames.by_place, reference, generator(frames.study, "mixed model"))
+    laps = with_place(frames.laps)
+    return lap_time_model(laps, reference, generator(frames.study, "mixed model"))
+
+
+def _carry_over(frames: StudyFrames) -> tuple[TestResult, ...]:
+    reference = reference_condition(frames.parts)
+    return () if reference is None else carry_over(with_place(frames.laps), reference)
 
 
 def _contrasts(frames: StudyFrames) -> tuple[TestResult, ...]:
@@ -176,7 +205,7 @@ def _seen(
 
 
 def _survey(frames: StudyFrames, instrument: Instrument) -> SurveyResults:
-    items = [item.id for item in instrument.items]
+    items = [item.id for item in instrument.items if item.answer != "text"]
     return SurveyResults(
         instrument=instrument,
         table=survey_table(frames, instrument),

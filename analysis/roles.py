@@ -19,7 +19,8 @@ class Part:
     role
         Full control without help; limited without help; helped by a demonstrator or the model.
     demonstrations
-        Training laps driven before the condition's first lap.
+        Training laps driven before the condition's first lap; of a borrowed model those that its
+        teacher drove.
     training
         Whether the model learns during the condition's laps.
     """
@@ -51,9 +52,14 @@ def condition_roles(protocol: StudyProtocol) -> tuple[Part, ...]:
         if not lap.practice and lap.condition not in parts:
             alone: Role = "limited" if condition.limitation else "baseline"
             role = alone if condition.assistant == "none" else condition.assistant
-            parts[lap.condition] = Part(lap.condition, role, demonstrations, condition.training)
+            shown = demonstrations if condition.model == "own" else _training_laps(protocol)
+            parts[lap.condition] = Part(lap.condition, role, shown, condition.training)
         demonstrations += condition.training
     return tuple(parts.values())
+
+
+def _training_laps(protocol: StudyProtocol) -> int:
+    return sum(protocol.conditions[lap.condition].training for lap in protocol.laps)
 
 
 def first(parts: tuple[Part, ...], role: Role) -> str | None:

@@ -54,7 +54,7 @@ def laps(rng: Rng, effect: float) -> pd.DataFrame:
         for i in range(N)
         for c in range(4)
     ]
-    return pd.DataFrame(rows, columns=["participant", "condition", "lap", "lap_time_s"])
+    return pd.DataFrame(rows, columns=["participant", "condition", "place", "lap_time_s"])
 
 
 def unequal_laps(rng: Rng, effect: float) -> pd.DataFrame:
@@ -73,7 +73,7 @@ def unequal_laps(rng: Rng, effect: float) -> pd.DataFrame:
             log_time = person[i] + limited[i] * (c == 1) + assisted[i] * (c > 1)
             noise = rng.normal(0, spread[c]) + effect * (c == 3)
             rows.append((f"P{i}", f"c{c}", c, math.exp(log_time + noise)))
-    return pd.DataFrame(rows, columns=["participant", "condition", "lap", "lap_time_s"])
+    return pd.DataFrame(rows, columns=["participant", "condition", "place", "lap_time_s"])
 
 
 def answers(rng: Rng, effect: float, n: int = N) -> tuple[np.ndarray, np.ndarray]:

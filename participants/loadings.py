@@ -105,5 +105,25 @@ DRIVING_ASSISTANCE: Mapping[str, Loadings] = {
 }
 """The eleven statements of Soh & Demiris (2013), section V.A."""
 
-KNOWN: Mapping[str, Mapping[str, Loadings]] = {"driving-assistance": DRIVING_ASSISTANCE}
+_USABLE = Loadings(intercept=0.6, slowness=-1.2, help=0.6, opposition=-1.5, liking=0.6)
+_UNUSABLE = Loadings(intercept=-0.6, slowness=1.2, help=-0.4, opposition=1.5, liking=-0.6)
+
+SUS: Mapping[str, Loadings] = {f"S{i}": _USABLE if i % 2 else _UNUSABLE for i in range(1, 11)}
+"""The System Usability Scale: every item alike, the even ones turned."""
+
+NASA_TLX: Mapping[str, Loadings] = {
+    "mental": Loadings(intercept=-0.4, slowness=1.2, opposition=0.8, collisions=0.2),
+    "physical": Loadings(intercept=-1.0, slowness=0.8, opposition=0.4),
+    "temporal": Loadings(intercept=-0.6, slowness=0.6, help=-0.2),
+    "performance": Loadings(intercept=-0.6, slowness=1.4, collisions=0.5, unfinished=1.5),
+    "effort": Loadings(intercept=-0.2, slowness=1.4, help=-0.4, opposition=1.0),
+    "frustration": Loadings(intercept=-0.8, slowness=1.6, opposition=1.5, collisions=0.4),
+}
+"""The six lines of the NASA Task Load Index."""
+
+KNOWN: Mapping[str, Mapping[str, Loadings]] = {
+    "driving-assistance": DRIVING_ASSISTANCE,
+    "sus": SUS,
+    "nasa-tlx": NASA_TLX,
+}
 """Loadings by instrument and item."""

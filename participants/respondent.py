@@ -74,7 +74,8 @@ class OrdinalRespondent:
         item = self._loadings[question.instrument, question.item]
         opinion = item.latent(felt, style.liking) + style.acquiescence + noise
         if question.answer == "number":
-            return on_range(style.extremity * opinion, question.lowest, question.highest)
+            felt_as = style.extremity * opinion
+            return on_range(felt_as, question.lowest, question.highest, question.step)
         return on_scale(style.extremity * opinion, question.points)
 
 
@@ -90,20 +91,26 @@ def on_scale(latent: float, points: int) -> int:
     return 1 + int(np.searchsorted(cuts, latent))
 
 
-def on_range(latent: float, lowest: float | None, highest: float | None) -> float:
+def on_range(
+    latent: float, lowest: float | None, highest: float | None, step: float | None = None
+) -> float:
     """Return a number on a line with two ends: its middle for 0, nine tenths of it for 2.
 
-    The ends are those that the item gives, 0 and 100 where it gives none; whole numbers.
+    The ends are those that the item gives, 0 and 100 where it gives none; whole numbers,
+    or whole steps from the lowest answer.
 
     Examples
     --------
     >>> [on_range(latent, 0.0, 100.0) for latent in (-9.0, 0.0, 1.0)]
     [0.0, 50.0, 70.0]
+    >>> on_range(0.3, 0.0, 100.0, 5.0)
+    55.0
     """
     low = 0.0 if lowest is None else lowest
     high = low + 100.0 if highest is None else highest
     share = min(max(0.5 + latent / LINE, 0.0), 1.0)
-    return float(round(low + share * (high - low)))
+    size = 1.0 if step is None else step
+    return float(min(low + round(share * (high - low) / size) * size, high))
 
 
 def ordinal_respondent(setup: RespondentSetup) -> OrdinalRespondent:

@@ -32,6 +32,10 @@ class Question:
         How it is answered: by a point of the scale, a number, or free text.
     lowest, highest
         Of a number, both included; None for no bound.
+    step
+        Of a number: answers are whole steps from the lowest one; None for any number between.
+    ends
+        What stands at the two ends of a number's scale; None for nothing.
     """
 
     instrument: str
@@ -42,6 +46,8 @@ class Question:
     answer: AnswerKind = "point"
     lowest: float | None = None
     highest: float | None = None
+    step: float | None = None
+    ends: tuple[str, str] | None = None
 
 
 @dataclass(frozen=True, slots=True)

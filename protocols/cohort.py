@@ -111,6 +111,8 @@ class Cohort(FileModel):
         Who drives, helps and answers; null for a study without a demonstrator or a respondent.
     demographics, impairments, traits
         What synthetic people are drawn from.
+    expected_dropout
+        Share of participants of whom no usable lap is expected; planning takes it into account.
     """
 
     participants: Annotated[int, Field(ge=1, le=9999)] = 12
@@ -120,6 +122,7 @@ class Cohort(FileModel):
     demographics: Demographics = Demographics()
     impairments: Annotated[tuple[ImpairmentChoice, ...], Field(max_length=100)] = ()
     traits: dict[Name, TraitDistribution] = Field(default_factory=dict)
+    expected_dropout: Annotated[float, Field(ge=0, lt=1)] = 0.0
 
     @model_validator(mode="after")
     def _nobody_has_two(self) -> Self:

@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from protocols.files.file_model import FileModel
+from protocols.files.file_model import FileModel, Name
 from protocols.wheelchair import MAX_TURN_RATE
 
 AssistantRole = Literal["none", "demonstrator", "model"]
@@ -31,7 +31,10 @@ class Condition(FileModel):
     safeguard
         Whether the last guard against hard collisions is on.
     training
-        Whether the model learns from the demonstrator during the lap.
+        Whether the participant's own model learns from the demonstrator during the lap.
+    model
+        Whose model predicts, and helps where the assistant is a model: ``own``, or one of the
+        protocol's ``models``.
     """
 
     limitation: LimitationSettings | None = None
@@ -39,9 +42,12 @@ class Condition(FileModel):
     arbitration: ArbitrationKind = "takeover"
     safeguard: bool = True
     training: bool = False
+    model: Name = "own"
 
     @model_validator(mode="after")
     def _training_needs_a_demonstrator(self) -> Self:
         if self.training and self.assistant != "demonstrator":
             raise ValueError("training: true needs assistant: demonstrator")
+        if self.training and self.model != "own":
+            raise ValueError("training: true needs model: own; a borrowed model learns nothing")
         return self

@@ -7,7 +7,10 @@ from protocols.condition import Condition
 from protocols.declared import Comparison
 from protocols.files.fault import Fault, InconsistentError, Location
 from protocols.files.suggestion import allowed
-from protocols.laps import PlannedLap
+from protocols.groups import Group
+from protocols.laps import AskedInstrument, PlannedLap
+from protocols.model_choice import BorrowedModel
+from protocols.orders import Orders, legal_orders, order_faults, put_in_order, untaught
 
 
 def check_consistency(
@@ -17,6 +20,10 @@ def check_consistency(
     *,
     cohort: Cohort,
     taught: bool = False,
+    survey: tuple[AskedInstrument, ...] = (),
+    orders: Orders | None = None,
+    groups: Mapping[str, Group] | None = None,
+    models: Mapping[str, BorrowedModel] | None = None,
 ) -> None:
     """Refuse a protocol whose parts contradict one another.
 
@@ -28,6 +35,10 @@ def check_consistency(
         Whether there is a demonstrator, and a respondent.
     taught
         Whether the model may have been taught before the study.
+    survey
+        What is asked after the last lap.
+    orders, groups, models
+        As the protocol has them; None for a fixed order, no groups and no borrowed models.
 
     Raises
     ------
@@ -36,7 +47,11 @@ def check_consistency(
     """
     faults = (
         *_absent_faults(conditions, laps, cohort),
-        *_lap_faults(conditions, laps, taught),
+        *_session_survey_faults(survey, cohort),
+        *_lap_faults(conditions, laps, taught, orders or Orders()),
+        *_model_faults(conditions, models or {}, ("conditions",)),
+        *_pilot_faults(conditions, laps, models or {}),
+        *_group_faults(conditions, groups or {}, models or {}, cohort),
         *_analysis_faults(conditions, laps, analyses),
     )
     if faults:
@@ -62,9 +77,12 @@ def _unknown_condition(given: str, conditions: Mapping[str, Condition]) -> str:
 
 
 def _lap_faults(
-    conditions: Mapping[str, Condition], laps: tuple[PlannedLap, ...], taught: bool
+    conditions: Mapping[str, Condition],
+    laps: tuple[PlannedLap, ...],
+    taught: bool,
+    orders: Orders,
 ) -> Iterator[Fault]:
-    trained = taught
+    trained = taught or orders.use != "fixed"  # of other orders only those are driven that teach
     for i, lap in enumerate(laps):
         condition = conditions.get(lap.condition)
         if condition is None:
@@ -72,24 +90,104 @@ def _lap_faults(
             yield Fault(("laps", i, "condition"), message)
             trained = True  # an unknown lap may have been the training: report only the first fault
             continue
-        if condition.assistant == "model" and not trained:
+        if condition.assistant == "model" and condition.model == "own" and not trained:
             message = (
                 f"'{lap.condition}' is assisted by the model, which has learnt nothing yet; "
                 "put a lap with training: true before it"
             )
             yield Fault(("laps", i, "condition"), message)
         trained = trained or condition.training
-        yield from _repeated_instruments(i, lap)
+        yield from _repeated_instruments(("laps", i), lap.survey)
     if all(lap.practice for lap in laps):
         yield Fault(("laps",), "every lap is practice; at least one must not be")
+    yield from _order_faults(conditions, laps, taught, orders)
 
 
-def _repeated_instruments(i: int, lap: PlannedLap) -> Iterator[Fault]:
+def _order_faults(
+    conditions: Mapping[str, Condition],
+    laps: tuple[PlannedLap, ...],
+    taught: bool,
+    orders: Orders,
+) -> Iterator[Fault]:
+    """Find orders that cannot be driven, once conditions and laps are right."""
+    faults = tuple(order_faults(orders, laps))
+    yield from faults
+    if faults or any(lap.condition not in conditions for lap in laps) or orders.use == "fixed":
+        return
+    if orders.use == "list":
+        for i, order in enumerate(orders.orders):
+            missing = untaught(put_in_order(laps, order), conditions, taught=taught)
+            if missing is not None:
+                message = f"'{missing}' comes before the model has learnt anything in this order"
+                yield Fault(("orders", "list", i), message)
+    if not legal_orders(orders, laps, conditions, taught=taught):
+        message = (
+            f"no order of {orders.use} can be driven: in each a model helps before it was taught, "
+            "or a rule is broken; allowed: other orders, fewer rules, or a borrowed model"
+        )
+        yield Fault(("orders", "use"), message)
+
+
+def _model_faults(
+    conditions: Mapping[str, Condition], models: Mapping[str, BorrowedModel], at: Location
+) -> Iterator[Fault]:
+    known = ["own", *models]
+    for name, condition in conditions.items():
+        if condition.model not in known:
+            message = f"'{condition.model}' is no model of this protocol; "
+            yield Fault((*at, name, "model"), message + allowed(condition.model, known))
+    if at == ("conditions",) and "own" in models:
+        yield Fault(("models", "own"), "own is the participant's model; allowed: another name")
+
+
+def _pilot_faults(
+    conditions: Mapping[str, Condition],
+    laps: tuple[PlannedLap, ...],
+    models: Mapping[str, BorrowedModel],
+) -> Iterator[Fault]:
+    """Find models that are to be taught by a lap that the protocol does not have."""
+    driven = [conditions[lap.condition] for lap in laps if lap.condition in conditions]
+    for name, model in models.items():
+        if model.source in ("pilot", "previous participant") and not any(
+            condition.training for condition in driven
+        ):
+            message = f"{model.source} needs a lap with training: true to learn from"
+            yield Fault(("models", name, "from"), message)
+
+
+def _group_faults(
+    conditions: Mapping[str, Condition],
+    groups: Mapping[str, Group],
+    models: Mapping[str, BorrowedModel],
+    cohort: Cohort,
+) -> Iterator[Fault]:
+    if len(groups) == 1:
+        yield Fault(("groups",), "1 group is no factor; allowed: none, or 2 or more")
+    for name, group in groups.items():
+        at: Location = ("groups", name, "conditions")
+        for condition in group.conditions:
+            if condition not in conditions:
+                yield Fault((*at, condition), _unknown_condition(condition, conditions))
+        yield from _model_faults(group.conditions, models, at)
+        absent = cohort.demonstrator is None and group.demonstrator is None
+        for condition, settings in group.conditions.items():
+            if absent and settings.assistant == "demonstrator":
+                message = "needs a demonstrator; allowed: another assistant, or a demonstrator"
+                yield Fault((*at, condition, "assistant"), message)
+
+
+def _session_survey_faults(surveys: tuple[AskedInstrument, ...], cohort: Cohort) -> Iterator[Fault]:
+    if cohort.respondent is None and surveys:
+        yield Fault(("survey",), "nobody answers; allowed: no survey, or cohort.respondent")
+    yield from _repeated_instruments((), surveys)
+
+
+def _repeated_instruments(at: Location, surveys: tuple[AskedInstrument, ...]) -> Iterator[Fault]:
     asked: set[str] = set()
-    for j, survey in enumerate(lap.survey):
-        where: Location = ("laps", i, "survey", j)
+    for j, survey in enumerate(surveys):
+        where: Location = (*at, "survey", j)
         if survey.instrument in asked:
-            message = f"'{survey.instrument}' is asked twice after this lap; once is allowed"
+            message = f"'{survey.instrument}' is asked twice at one time; once is allowed"
             yield Fault((*where, "instrument"), message)
         asked.add(survey.instrument)
         items = survey.items if isinstance(survey.items, tuple) else ()

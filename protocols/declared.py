@@ -17,11 +17,17 @@ LAP_OUTCOMES = (
 """Columns of the lap table that a comparison may name."""
 
 
+Unfinished = Literal["complete pairs", "limit", "worst rank"]
+"""What an unfinished lap counts as: no time; its time limit; slower than every finished lap."""
+
+
 def _lap_outcome_or_item(value: str) -> str:
     instrument, _, item = value.rpartition(".")
     if value in LAP_OUTCOMES or (instrument and item):
         return value
-    allowed = f"{', '.join(LAP_OUTCOMES)}, or instrument.item (driving-assistance.Q7)"
+    allowed = (
+        f"{', '.join(LAP_OUTCOMES)}, instrument.item (driving-assistance.Q7) or instrument.subscale"
+    )
     raise ValueError(f"'{value}' is not an outcome; allowed: {allowed}")
 
 
@@ -60,7 +66,8 @@ class Comparison(FileModel):
     name
         Unique name, used in tables.
     outcome
-        A column of the lap table, or ``instrument.item`` for a survey answer.
+        A column of the lap table, ``instrument.item`` for a survey answer, or
+        ``instrument.subscale`` for a composite score.
     condition, reference
         Names of the two conditions; the effect is condition minus reference.
     kind
@@ -69,6 +76,12 @@ class Comparison(FileModel):
         Name of that family.
     equivalence_margin
         Margin of an equivalence test (TOST) in the outcome's unit; None for none.
+    margin_reason
+        Why that margin is the largest difference that does not matter; a registration asks for it.
+    unfinished
+        What an unfinished lap counts as where lap times are compared: ``complete pairs`` leaves the
+        pair out, ``limit`` takes the time limit for its time, ``worst rank`` ranks it behind every
+        finished lap. The report shows the other two beside it.
     """
 
     name: Name
@@ -78,10 +91,12 @@ class Comparison(FileModel):
     kind: Literal["confirmatory", "exploratory"] = "exploratory"
     family: Name = "primary"
     equivalence_margin: Annotated[float, Field(gt=0)] | None = None
+    margin_reason: str = ""
+    unfinished: Unfinished = "complete pairs"
 
     @property
     def item(self) -> tuple[str, str] | None:
-        """Instrument and item of a survey outcome; None for a lap outcome."""
+        """Instrument and item (or subscale) of a survey outcome; None for a lap outcome."""
         if self.outcome in LAP_OUTCOMES:
             return None
         instrument, _, item = self.outcome.rpartition(".")

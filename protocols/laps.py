@@ -23,6 +23,11 @@ class AskedInstrument(FileModel):
     items: Annotated[tuple[Name, ...], Field(min_length=1)] | Literal["all"] = "all"
 
 
+WHOLE_SESSION = "(session)"
+"""What stands in place of a condition for an answer that is about the whole session; its lap is -1.
+No condition can have this name."""
+
+
 class PlannedLap(FileModel):
     """One lap of the session.
 

@@ -1,5 +1,6 @@
 """Load a study and everything it refers to."""
 
+import hashlib
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -8,12 +9,15 @@ from protocols.course.drivable import undrivable
 from protocols.course.schema import Course
 from protocols.files.document import spoken
 from protocols.files.errors import InputError
-from protocols.files.fault import Fault
+from protocols.files.fault import Fault, Location
 from protocols.files.validation import validate
 from protocols.instrument import Instrument
+from protocols.laps import AskedInstrument
+from protocols.model_choice import BorrowedModel
 from protocols.pages import Text
 from protocols.parts import parts_beside
-from protocols.questions import laps_with_items, question_faults
+from protocols.questions import laps_with_items, question_faults, session_survey
+from protocols.record.header import read_header
 from protocols.resolved import ResolvedStudy
 from protocols.shipped import Source, locate, locate_text, shipped_names
 from protocols.study import StudyProtocol
@@ -97,6 +101,7 @@ def resolve_study(
             _referred_course(protocol, source.folder) if course is None else load_course(course)
         )
         instruments = _instruments(protocol, source.folder)
+        protocol = _with_hashes(protocol, source.folder)
     except _ReferenceError as error:
         raise document.error([error.fault]) from None
     faults = tuple(question_faults(protocol, instruments))
@@ -176,23 +181,60 @@ def _with_texts(protocol: StudyProtocol, folder: Path | None) -> StudyProtocol:
     return protocol.model_copy(update=texts)
 
 
+def _with_hashes(protocol: StudyProtocol, folder: Path | None) -> StudyProtocol:
+    """Return the protocol with the hash of every model that is borrowed from outside."""
+    models = {
+        name: model.model_copy(update={"sha256": _hash(model, name, folder)})
+        for name, model in protocol.models.items()
+    }
+    return protocol.model_copy(update={"models": models})
+
+
+def _hash(model: BorrowedModel, name: str, folder: Path | None) -> str | None:
+    """Return what identifies a borrowed model; None where each participant borrows another one.
+
+    A file's is its SHA-256, a study's its digest.
+    """
+    if model.path is None or "{participant}" in model.path:
+        return model.sha256
+    path = (folder or Path()) / model.path
+    at = ("models", name, "path")
+    try:
+        found = read_header(path).digest if model.source == "pooled" else _sha256(path)
+    except (InputError, OSError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise _ReferenceError(Fault(at, f"{model.path}: cannot be borrowed: {reason}")) from None
+    if model.sha256 not in (None, found):
+        raise _ReferenceError(Fault(at, f"{model.path}: is not the model whose sha256 is given"))
+    return found
+
+
+def _sha256(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
 def _instruments(protocol: StudyProtocol, folder: Path | None) -> dict[str, Instrument]:
     """Return the instruments by what the protocol calls them."""
     found: dict[str, Instrument] = {}
-    for i, lap in enumerate(protocol.laps):
-        for j, survey in enumerate(lap.survey):
-            if survey.instrument in found:
-                continue
-            where = ("laps", i, "survey", j, "instrument")
-            try:
-                source = locate("instruments", survey.instrument, folder)
-            except InputError as error:
-                raise _ReferenceError(Fault(where, str(error))) from None
-            instrument = validate(source.document(), Instrument)
-            if instrument.name in (other.name for other in found.values()):
-                message = f"another instrument of this study is named '{instrument.name}' too"
-                raise _ReferenceError(Fault(where, message))
-            found[survey.instrument] = instrument
+    asked: list[tuple[Location, AskedInstrument]] = [
+        (("laps", i, "survey", j), survey)
+        for i, lap in enumerate(protocol.laps)
+        for j, survey in enumerate(lap.survey)
+    ]
+    asked += [(("survey", j), survey) for j, survey in enumerate(protocol.survey)]
+    for at, survey in asked:
+        if survey.instrument in found:
+            continue
+        where = (*at, "instrument")
+        try:
+            source = locate("instruments", survey.instrument, folder)
+        except InputError as error:
+            raise _ReferenceError(Fault(where, str(error))) from None
+        instrument = validate(source.document(), Instrument)
+        if instrument.name in (other.name for other in found.values()):
+            message = f"another instrument of this study is named '{instrument.name}' too"
+            raise _ReferenceError(Fault(where, message))
+        found[survey.instrument] = instrument
     return found
 
 
@@ -209,7 +251,13 @@ def _resolved(
     if participants is not None:
         cohort = cohort.model_copy(update={"participants": participants})
     laps = laps_with_items(protocol, instruments)
-    changes: dict[str, Any] = {"course": course.name, "laps": laps, "cohort": cohort}
+    survey = session_survey(protocol, instruments)
+    changes: dict[str, Any] = {
+        "course": course.name,
+        "laps": laps,
+        "cohort": cohort,
+        "survey": survey,
+    }
     if driven_elsewhere:  # published figures belong to the course that the protocol names
         changes["replicates"] = None
     return ResolvedStudy(

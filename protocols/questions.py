@@ -30,9 +30,25 @@ def laps_with_items(protocol: StudyProtocol, instruments: Instruments) -> tuple[
     )
 
 
+def session_survey(
+    protocol: StudyProtocol, instruments: Instruments
+) -> tuple[AskedInstrument, ...]:
+    """Return what is asked after the last lap, every item by its id."""
+    return tuple(
+        AskedInstrument(
+            instrument=instruments[asked.instrument].name,
+            items=instruments[asked.instrument].ids(assisted=True)
+            if asked.items == "all"
+            else asked.items,
+        )
+        for asked in protocol.survey
+    )
+
+
 def question_faults(protocol: StudyProtocol, instruments: Instruments) -> Iterator[Fault]:
     """Find questions that do not exist, and comparisons of answers that no lap asks for."""
     yield from _survey_faults(protocol, instruments)
+    yield from _session_faults(protocol, instruments)
     yield from _outcome_faults(protocol, instruments)
 
 
@@ -52,6 +68,16 @@ def _survey_faults(protocol: StudyProtocol, instruments: Instruments) -> Iterato
                     yield Fault(("laps", i, "survey", j, "items", k), message)
 
 
+def _session_faults(protocol: StudyProtocol, instruments: Instruments) -> Iterator[Fault]:
+    for j, survey in enumerate(protocol.survey):
+        ids = instruments[survey.instrument].ids(assisted=True)
+        for k, item in enumerate(survey.items if survey.items != "all" else ()):
+            if item not in ids:
+                hint = allowed(item, ids)
+                message = f"'{item}' is not an item of '{survey.instrument}'; {hint}"
+                yield Fault(("survey", j, "items", k), message)
+
+
 def _outcome_faults(protocol: StudyProtocol, instruments: Instruments) -> Iterator[Fault]:
     asked = {
         (lap.condition, instruments[survey.instrument].name, item)
@@ -64,10 +90,19 @@ def _outcome_faults(protocol: StudyProtocol, instruments: Instruments) -> Iterat
         if comparison.item is None:
             continue
         name, item = comparison.item
+        meant = answering(instruments, name, item)
         for condition in (comparison.condition, comparison.reference):
-            if (condition, name, item) not in asked:
+            if not any((condition, name, one) in asked for one in meant):
                 message = f"'{item}' of '{name}' is not asked after a lap of '{condition}'"
                 yield Fault(("analyses", i, "outcome"), message)
+
+
+def answering(instruments: Instruments, name: str, item: str) -> tuple[str, ...]:
+    """Return the items that an outcome means: an item, or every item of a subscale."""
+    for instrument in instruments.values():
+        if instrument.name == name:
+            return instrument.answering(item)
+    return ()
 
 
 def asked_items(

@@ -7,7 +7,7 @@ from pathlib import Path
 from protocols.code_beside import PartBeside
 from protocols.course.schema import Course
 from protocols.instrument import Instrument, Item
-from protocols.laps import PlannedLap
+from protocols.laps import AskedInstrument, PlannedLap
 from protocols.study import StudyProtocol
 
 
@@ -62,8 +62,16 @@ class ResolvedStudy:
 
     def questions(self, planned: PlannedLap) -> tuple[tuple[Instrument, Item], ...]:
         """Return what is asked after a planned lap, in order."""
+        return self._asked(planned.survey)
+
+    @property
+    def session_questions(self) -> tuple[tuple[Instrument, Item], ...]:
+        """What is asked once, after the last lap, in order."""
+        return self._asked(self.protocol.survey)
+
+    def _asked(self, surveys: tuple[AskedInstrument, ...]) -> tuple[tuple[Instrument, Item], ...]:
         asked = []
-        for survey in planned.survey:
+        for survey in surveys:
             instrument = self.instrument(survey.instrument)
             asked += [(instrument, instrument.item(item)) for item in survey.items]
         return tuple(asked)

@@ -4,35 +4,19 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from lad.hyperparameters import LADParameters
-from protocols.cohort import Cohort, Options
+from protocols.cohort import Cohort
 from protocols.condition import Condition
 from protocols.consistency import check_consistency
 from protocols.declared import Comparison, Exclusion
-from protocols.files.file_model import FileModel, FormatVersion, Name, part_name
-from protocols.laps import PlannedLap
+from protocols.files.file_model import FileModel, FormatVersion, Name
+from protocols.groups import Group
+from protocols.laps import AskedInstrument, PlannedLap
 from protocols.live import LiveSettings
+from protocols.model_choice import BorrowedModel, ModelChoice, Sha256
+from protocols.orders import Orders
 from protocols.pages import Consent, Particular, Text
-from protocols.shipped_parts import LAD, MODELS
+from protocols.shipped_parts import LAD
 from protocols.start_noise import StartNoise
-
-
-class ModelChoice(FileModel):
-    """The assistant that learns; Table I of the paper is the default.
-
-    ``parameters`` are those of ``lad``, ``options`` those of any other model.
-    """
-
-    use: part_name(*MODELS) = LAD  # type: ignore[valid-type]
-    parameters: LADParameters = LADParameters()
-    options: Options = Field(default_factory=dict)
-
-    @model_validator(mode="after")
-    def _options_are_for_others(self) -> Self:
-        if self.use == LAD and self.options:
-            raise ValueError("options are for other models; lad takes parameters")
-        return self
-
 
 Publication = Literal["soh-demiris-2013"]
 """Published studies that the analysis knows the figures of."""
@@ -70,6 +54,16 @@ class StudyProtocol(FileModel):
         Ways of driving a lap, by name.
     laps
         What a participant does, in order.
+    orders
+        In which orders participants drive the analysed laps; fixed by default.
+    groups
+        Groups of participants and what is different for them, by name; empty for none.
+    model
+        The model that a participant teaches: the conditions' model ``own``.
+    models
+        Models that others have taught, by the name that conditions give them.
+    registration
+        SHA-256 of the registration that the study follows; filled in by ``run --registration``.
     control_period_s
         Length of a control step, in s.
     laser
@@ -83,6 +77,8 @@ class StudyProtocol(FileModel):
         Shown, and agreed to, before anything else; null for none.
     demographics
         What participants are asked about themselves before the first lap.
+    survey
+        What is asked once, after the last lap, about the whole session.
     debrief
         Shown after everything else; null for none.
     live
@@ -100,7 +96,10 @@ class StudyProtocol(FileModel):
     cohort: Cohort = Cohort()
     conditions: Annotated[dict[Name, Condition], Field(min_length=1, max_length=200)]
     laps: Annotated[tuple[PlannedLap, ...], Field(min_length=1, max_length=200)]
+    orders: Orders = Orders()
+    groups: dict[Name, Group] = Field(default_factory=dict)
     model: ModelChoice = ModelChoice()
+    models: dict[Name, BorrowedModel] = Field(default_factory=dict)
     exclusion: Exclusion = Exclusion()
     analyses: Annotated[tuple[Comparison, ...], Field(max_length=500)] = ()
     control_period_s: Annotated[float, Field(ge=0.02, le=0.5)] = 0.1
@@ -109,14 +108,24 @@ class StudyProtocol(FileModel):
     hold_s: Annotated[float, Field(gt=0, le=5)] = 0.3
     consent: Consent | None = None
     demographics: Annotated[tuple[Particular, ...], Field(max_length=100)] = ()
+    survey: Annotated[tuple[AskedInstrument, ...], Field(max_length=100)] = ()
     debrief: Text | None = None
     live: LiveSettings = LiveSettings()
     replicates: Publication | None = None
+    registration: Sha256 | None = None
 
     @model_validator(mode="after")
     def _parts_agree(self) -> Self:
         taught = self.model.use != LAD  # what a model of one's own knows is not ours to say
         check_consistency(
-            self.conditions, self.laps, self.analyses, cohort=self.cohort, taught=taught
+            self.conditions,
+            self.laps,
+            self.analyses,
+            cohort=self.cohort,
+            taught=taught,
+            survey=self.survey,
+            orders=self.orders,
+            groups=self.groups,
+            models=self.models,
         )
         return self

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from lad.hyperparameters import LADParameters
-from protocols.study import ModelChoice
+from protocols.model_choice import ModelChoice
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,5 +1,6 @@
 """How much each comparison of lap times shows, and how sure that is."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -11,8 +12,8 @@ from analysis.figures.text import wrapped
 
 
 def effect_figure(comparisons: Sequence[PairedComparison]) -> Figure:
-    """Draw mean paired differences of lap times with 95% intervals, confirmatory ones filled."""
-    shown = [c for c in comparisons if c.difference is not None and c.difference.computed]
+    """Draw changes of lap time in percent with 95% intervals, confirmatory ones filled."""
+    shown = [c for c in comparisons if c.lap_time is not None and c.lead.computed]
     labels = [_label(c) for c in reversed(shown)]
     lines = sum(max(label.count("\n") + 1, 2) for label in labels)
     figure = new_figure(1.1 + 0.225 * max(lines, 2))
@@ -20,24 +21,24 @@ def effect_figure(comparisons: Sequence[PairedComparison]) -> Figure:
         return say_nothing_to_show(figure, "No comparison of lap times can be computed.")
     axes = figure.subplots()
     for at, c in enumerate(reversed(shown)):
-        found = c.difference
-        if found is None:  # pragma: no cover - shown holds no such comparison
-            continue
-        reach = np.array([[found.estimate - found.low], [found.high - found.estimate]])
+        change, low, high = (
+            100 * math.expm1(v) for v in (c.lead.estimate, c.lead.low, c.lead.high)
+        )
+        reach = np.array([[change - low], [high - change]])
         declared = c.kind == "confirmatory"
         axes.errorbar(
-            found.estimate, at, xerr=reach, fmt="o" if declared else "s", color=BLACK,
+            change, at, xerr=reach, fmt="o" if declared else "s", color=BLACK,
             markerfacecolor=BLACK if declared else "white", capsize=4, markersize=7,
         )  # fmt: skip
         axes.annotate(
-            f"{found.estimate:+.1f} s", (found.estimate, at), xytext=(0, 8), ha="center",
+            f"{change:+.0f}%", (change, at), xytext=(0, 8), ha="center",
             textcoords="offset points", fontsize=9,
         )  # fmt: skip
     axes.axvline(0, color=GREY, linewidth=1)
     axes.margins(x=0.12)  # room for the numbers above the outermost ones
     axes.set_yticks(range(len(shown)), labels)
     axes.set_ylim(-0.5, len(shown) - 0.3)
-    axes.set_xlabel("difference of lap times / s (negative: faster)")
+    axes.set_xlabel("change of lap time / % (negative: faster)")
     tidy(axes, grid="x")
     return figure
 

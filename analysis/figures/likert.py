@@ -29,7 +29,8 @@ def likert_figure(table: pd.DataFrame, instrument: Instrument) -> Figure:
     instrument
         The questionnaire: its scale and items.
     """
-    rows = table[table["answered"] > 0]
+    points = [f"n_{i}" for i in range(1, instrument.points + 1)]
+    rows = table[table[points].sum(axis=1) > 0]
     row = 0.24 if _longest(rows["condition"]) <= _NAME else 0.32
     figure = new_figure(1.2 + row * (len(rows) + 0.6 * sum(_words(rows).str.count("\n") + 2)))
     if rows.empty:

@@ -1,24 +1,20 @@
-"""Lap times in a mixed model: log time ~ condition + (1 | participant)."""
+"""Lap times in a mixed model: log time ~ condition + place + (1 | participant)."""
 
 import math
-import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 from scipy import stats
-from statsmodels.regression.mixed_linear_model import MixedLM
-from statsmodels.tools.sm_exceptions import ConvergenceWarning
 
 from analysis.stats.permutation import sign_flip
+from analysis.stats.random_intercept import InterceptFit, fit_random_intercept
 from analysis.stats.result import TestResult
 
 INFLATED = 5.0
 """Variance inflation from which on two effects count as not told apart, the usual limit."""
-
-_MODEL = "linear mixed model, log time ~ condition + (1 | participant)"
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,124 +24,137 @@ class Design:
     Attributes
     ----------
     matrix
-        Shape (laps, effects): intercept, one column per contrast, and the lap's place in the
-        session where it is identified.
+        Shape (laps, effects): intercept, one column per contrast, and one per place in the session
+        but the first, where places are identified.
     contrasts
         The conditions that are set against the reference, in order.
-    with_lap
-        Whether the lap's place is in the matrix: only where it can be told from the conditions.
+    with_place
+        Whether the places are in the matrix: only where they can be told from the conditions.
     """
 
     matrix: NDArray[np.float64]
     contrasts: tuple[str, ...]
-    with_lap: bool
+    with_place: bool
 
 
 def lap_time_design(laps: pd.DataFrame, reference: str) -> Design:
-    """Return the fixed effects of a design, with the lap's place only if it can be told apart.
+    """Return the fixed effects of a design, with the places only if they can be told apart.
 
     In a fixed order the place of a lap follows from its condition: the matrix would be singular,
-    and practice and condition are confounded. Where one person of many has driven another order,
-    or one lap twice, the matrix is not singular, but practice then hangs on this one person:
-    the place is left out where it would inflate a contrast's variance ``INFLATED`` times.
+    and practice and condition are confounded. Practice is not linear (it follows a power law), so
+    each place has an effect of its own; a straight line through them misleads. Where a few people
+    have driven another order the matrix need not be singular, but practice then hangs on them:
+    places are left out where they would inflate a contrast's variance ``INFLATED`` times.
 
     Parameters
     ----------
     laps
-        One row per finished lap: participant, condition, lap.
+        One row per finished lap: participant, condition, and place (its position among a
+        participant's analysed laps).
     reference
         The condition the others are set against.
     """
     conditions = [c for c in dict.fromkeys(laps["condition"]) if c != reference]
-    columns = [np.ones(len(laps))]
-    columns += [(laps["condition"] == c).to_numpy(dtype=np.float64) for c in conditions]
+    columns = [np.ones(len(laps)), *(indicator(laps["condition"], c) for c in conditions)]
     matrix = np.column_stack(columns)
-    lap = laps["lap"].to_numpy(dtype=np.float64)
-    wider = np.column_stack([matrix, lap - lap.mean()]) if len(lap) else matrix
-    identified = _inflation(matrix, wider, laps["participant"]) < INFLATED
+    places = sorted(laps["place"].unique())[1:]
+    wider = np.column_stack([matrix, *(indicator(laps["place"], p) for p in places)])
+    identified = inflation(matrix, wider, laps["participant"]) < INFLATED
     return Design(wider if identified else matrix, tuple(conditions), identified)
 
 
-def _inflation(
+def indicator(column: pd.Series, value: object) -> NDArray[np.float64]:
+    """Return 1 where a column has a value, 0 elsewhere."""
+    return np.asarray(column.to_numpy() == value, dtype=np.float64)
+
+
+def inflation(
     matrix: NDArray[np.float64], wider: NDArray[np.float64], participants: pd.Series
 ) -> float:
-    """Return how many times one more column inflates a contrast's variance, for the worst one.
+    """Return how many times more columns inflate a contrast's variance, for the worst one.
 
     Within participants, where the contrasts are estimated; infinite without any information.
     """
     if wider.shape == matrix.shape or matrix.shape[1] < 2:
         return math.inf
-    without, with_it = (_within(m[:, 1:], participants) for m in (matrix, wider))
+    without, with_it = (within_people(m[:, 1:], participants) for m in (matrix, wider))
     if np.linalg.matrix_rank(with_it) < with_it.shape[1]:
         return math.inf
     before, after = (np.diag(np.linalg.inv(m.T @ m)) for m in (without, with_it))
     return float((after[: len(before)] / before).max())
 
 
-def _within(matrix: NDArray[np.float64], participants: pd.Series) -> NDArray[np.float64]:
+def within_people(matrix: NDArray[np.float64], participants: pd.Series) -> NDArray[np.float64]:
     """Return what is left of each column within participants."""
-    frame = pd.DataFrame(matrix)
-    means = frame.groupby(participants.to_numpy()).transform("mean")
-    return (frame - means).to_numpy()
+    codes = pd.factorize(participants)[0]
+    sums = np.zeros((codes.max() + 1, matrix.shape[1]))
+    np.add.at(sums, codes, matrix)
+    return matrix - (sums / np.bincount(codes)[:, None])[codes]
 
 
 def lap_time_model(
-    laps: pd.DataFrame, reference: str, rng: np.random.Generator, level: float = 0.95
+    laps: pd.DataFrame,
+    reference: str,
+    rng: np.random.Generator,
+    level: float = 0.95,
+    wanted: Sequence[str] | None = None,
 ) -> tuple[TestResult, ...]:
     """Set every condition's log lap time against a reference condition's.
 
     Parameters
     ----------
     laps
-        One row per lap: participant, condition, lap (place in the session), lap_time_s. Laps
-        without a time are left out.
+        One row per lap: participant, condition, place (position among the participant's analysed
+        laps), lap_time_s. Laps without a time are left out.
     reference
         The condition the others are set against.
     rng
         For the permutation test, where the model has to fall back on it.
     level
         Confidence level of the intervals.
+    wanted
+        The conditions whose contrasts are returned; None for all.
 
     Returns
     -------
     tuple of TestResult
         One per condition: the estimate is the log of the ratio of geometric mean lap times,
-        condition over reference. Tests are t on residual degrees of freedom within participants
-        (exact for complete data). Where the model does not converge, or is caught with an effect
-        of exactly zero, a permutation test over participants takes its place, and the method says
-        so.
+        condition over reference. Standard errors and degrees of freedom are Kenward and Roger's.
+        Where the model cannot be fitted, a permutation test over participants takes its place, and
+        the method says so.
 
     References
     ----------
-    Laird & Ware (1982), Biometrics 38(4), 963-974.
+    Laird & Ware (1982), Biometrics 38(4), 963-974; Kenward & Roger (1997), Biometrics 53(3),
+    983-997.
     """
     timed = laps.dropna(subset=["lap_time_s"])
     timed = timed.assign(log_time=np.log(timed["lap_time_s"].to_numpy(dtype=np.float64)))
-    design = lap_time_design(timed, reference)
-    if not design.contrasts or reference not in set(timed["condition"]):
+    if reference not in set(timed["condition"]) or timed["condition"].nunique() < 2:
         return ()
+    design = lap_time_design(timed, reference)
+    chosen = [c for c in design.contrasts if wanted is None or c in wanted]
     n = int(timed["participant"].nunique())
     used = _laps_used(laps, timed, n)
     df = len(timed) - n - (design.matrix.shape[1] - 1)
     if n < 2 or df < 1:
         why = f"too few: {used}"
-        return tuple(_named(TestResult.missing("", n, why), c, reference) for c in design.contrasts)
-    fit, remarks = _fit(timed, design)
-    remarks = (used, *remarks)
+        return tuple(_named(TestResult.missing("", n, why), c, reference) for c in chosen)
+    fit = fit_random_intercept(timed["log_time"], design.matrix, timed["participant"])
     if fit is None:
-        return tuple(_fallback(timed, c, reference, rng, remarks) for c in design.contrasts)
+        remarks = (used, "the mixed model cannot be fitted: there is no residual spread")
+        return tuple(_fallback(timed, c, reference, rng, remarks) for c in chosen)
     return tuple(
         _contrast(
             fit,
             design,
-            i,
+            design.contrasts.index(c),
             reference,
-            df=df,
             n=n,
             level=level,
-            remarks=(*remarks, *_resting_on(timed, design.contrasts[i], reference, n)),
+            remarks=(used, *_resting_on(timed, c, reference, n)),
         )
-        for i in range(len(design.contrasts))
+        for c in chosen
     )
 
 
@@ -165,46 +174,44 @@ def _resting_on(timed: pd.DataFrame, condition: str, reference: str, n: int) -> 
     return (f"{condition} against {reference}: {both} of {n} participants have both",)
 
 
-def _fit(laps: pd.DataFrame, design: Design) -> tuple[Any, tuple[str, ...]]:
-    """Return the fit, or None, and what happened."""
-    codes = pd.factorize(laps["participant"])[0]
-    try:
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            fit = MixedLM(laps["log_time"].to_numpy(), design.matrix, groups=codes).fit(
-                reml=True, method="powell"
-            )
-            errors = np.asarray(fit.bse_fe)
-    except (np.linalg.LinAlgError, ValueError) as error:
-        return None, (f"the mixed model failed: {error}",)
-    # Of warnings only the fit's own: numpy's on the way are its search, and its end is checked.
-    of_the_fit = (w for w in caught if issubclass(w.category, ConvergenceWarning))
-    texts = dict.fromkeys(str(w.message).partition("\n")[0].rstrip(".") for w in of_the_fit)
-    said = tuple(f"statsmodels: {text}" for text in texts)
-    effects = np.asarray(fit.fe_params)[1:]
-    if not fit.converged:
-        return None, ("the mixed model did not converge", *said)
-    if (effects == 0).any() or not np.isfinite(errors).all():
-        return None, ("the mixed model returned an effect of exactly zero or no error", *said)
-    return fit, said
-
-
 def _contrast(
-    fit: Any,
+    fit: InterceptFit,
     design: Design,
     i: int,
     reference: str,
     *,
-    df: int,
     n: int,
     level: float,
     remarks: tuple[str, ...],
 ) -> TestResult:
-    estimate, error = float(fit.fe_params[i + 1]), float(fit.bse_fe[i + 1])
+    weights = np.zeros(design.matrix.shape[1])
+    weights[i + 1] = 1.0
+    model = "condition + place" if design.with_place else "condition"
+    place = "" if design.with_place else "; the lap's place is not identified"
+    found = model_result(fit, weights, n=n, level=level, formula=model)
+    found = replace(found, method=found.method + place, notes=(*found.notes, *remarks))
+    return _named(found, design.contrasts[i], reference)
+
+
+def model_result(
+    fit: InterceptFit, weights: NDArray[np.float64], *, n: int, level: float, formula: str
+) -> TestResult:
+    """Return a contrast of log times in a fitted model, tested after Kenward and Roger.
+
+    Parameters
+    ----------
+    fit, weights
+        The model, and the contrast's weight of each of its effects.
+    n
+        How many people it is of.
+    level
+        Confidence level.
+    formula
+        The fixed effects in words, for the method.
+    """
+    estimate, error, df = fit.contrast(weights)
     half = float(stats.t.ppf((1 + level) / 2, df)) * error
-    between, within = math.sqrt(float(fit.cov_re[0, 0])), math.sqrt(float(fit.scale))
-    lap = "with the lap's place" if design.with_lap else "the lap's place is not identified"
-    found = TestResult(
+    return TestResult(
         name="",
         estimate=estimate,
         low=estimate - half,
@@ -214,14 +221,12 @@ def _contrast(
         statistic_name="t",
         p=float(2 * stats.t.sf(abs(estimate / error), df)),
         n=n,
-        method=f"{_MODEL}, REML, Powell; t on {df} df; {lap}",
+        method=f"linear mixed model, log time ~ {formula} + (1 | participant), REML; "
+        f"t on {df:.3g} Kenward-Roger df",
         checks=(
-            "converged",
-            f"standard deviation between participants {between:.3g}, residual {within:.3g} (log s)",
+            f"spread between participants {fit.between:.3g}, residual {fit.within:.3g} (sd, log s)",
         ),
-        notes=remarks,
     )
-    return _named(found, design.contrasts[i], reference)
 
 
 def _fallback(

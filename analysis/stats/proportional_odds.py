@@ -12,7 +12,7 @@ from analysis.stats.samples import Sample, present_pairs
 
 RESAMPLES = 999
 _NAME = "proportional odds"
-_METHOD = "proportional-odds regression (logit), maximum likelihood"
+_METHOD = "marginal proportional-odds regression (logit), maximum likelihood"
 _BOOTSTRAP = f"percentile bootstrap over participants, {RESAMPLES} resamples"
 _STEPS = 60
 _FAR = 12.0
@@ -24,6 +24,7 @@ def proportional_odds(
 ) -> TestResult:
     """Return the log odds ratio of a higher answer after the condition.
 
+    The ratio is marginal: over all people, not within a person, where it would be further from 1.
     Both answers of a participant count; because they belong together, the interval comes from
     resampling participants, and there is no p-value: the test of an item is Wilcoxon's.
 
@@ -66,7 +67,7 @@ def proportional_odds(
     low, high = _interval(answers, len(points), rng, level)
     return TestResult(
         name=_NAME,
-        quantity="log odds ratio of a higher answer, condition / reference",
+        quantity="marginal log odds ratio of a higher answer, condition / reference",
         estimate=estimate,
         low=low,
         high=high,

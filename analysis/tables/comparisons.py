@@ -51,11 +51,16 @@ def _row(c: PairedComparison) -> dict[str, object]:
         "n_missing": c.incomplete,
         "mean_condition": c.mean_condition,
         "mean_reference": c.mean_reference,
+        "practice": c.practice or "",
+        **_change(c),
+        "p": c.lead.p,
+        "p_holm": c.p_holm,
+        "smallest_p": c.smallest_p,
         **_estimate("mean_difference", c.difference),
         **_estimate("pseudomedian", c.signed_rank),
         "wilcoxon_statistic": c.signed_rank.statistic,
         "wilcoxon_p": c.signed_rank.p,
-        "wilcoxon_p_holm": c.p_holm,
+        "p_items": c.p_items,
         **_estimate("rank_biserial", c.rank_biserial),
         **_estimate("d_z", c.dz),
         **_odds_ratio(c.odds),
@@ -74,6 +79,46 @@ def _estimate(name: str, result: TestResult | None, factor: float = 1.0) -> dict
         return {name: math.nan, f"{name}_low": math.nan, f"{name}_high": math.nan}
     low, high = sorted((factor * result.low, factor * result.high))
     return {name: factor * result.estimate, f"{name}_low": low, f"{name}_high": high}
+
+
+def _change(c: PairedComparison) -> dict[str, float]:
+    """Return the change of lap time in percent, where lap times are compared."""
+    names = ("change_percent", "change_percent_low", "change_percent_high")
+    if c.lap_time is None:
+        return dict.fromkeys(names, math.nan)
+    ends = (c.lead.estimate, c.lead.low, c.lead.high)
+    return {name: 100 * math.expm1(end) for name, end in zip(names, ends, strict=True)}
+
+
+def sensitivity_table(comparisons: Iterable[PairedComparison]) -> pd.DataFrame:
+    """Return one row per comparison and way to count unfinished laps, where there are any.
+
+    Columns: name, condition, reference, unfinished, declared (whether the protocol asks for this
+    way), n, change_percent with its interval (none for worst ranks, which are no lap times), and p.
+    """
+    rows: list[dict[str, object]] = []
+    for c in comparisons:
+        if c.lap_time is None or not c.sensitivity:
+            continue
+        for tested in (c.lap_time, *c.sensitivity):
+            sized = tested.unfinished != "worst rank"
+            ends = (tested.test.estimate, tested.test.low, tested.test.high)
+            changes = [100 * math.expm1(end) if sized else math.nan for end in ends]
+            rows.append(
+                {
+                    "name": c.name,
+                    "condition": c.condition,
+                    "reference": c.reference,
+                    "unfinished": tested.unfinished,
+                    "declared": tested is c.lap_time,
+                    "n": tested.test.n,
+                    "change_percent": changes[0],
+                    "change_percent_low": changes[1],
+                    "change_percent_high": changes[2],
+                    "p": tested.test.p,
+                }
+            )
+    return pd.DataFrame(rows)
 
 
 def _odds_ratio(result: TestResult | None) -> dict[str, float]:

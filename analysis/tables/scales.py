@@ -2,33 +2,38 @@
 
 import pandas as pd
 
+from analysis.composites import scores, sheets, subscales
 from analysis.frames import StudyFrames
 from analysis.stats.cronbach_alpha import cronbach_alpha
 from analysis.stats.describe import describe
-from protocols.instrument import Instrument, Item
+from protocols.instrument import Instrument
+from protocols.laps import WHOLE_SESSION
+
+RELIABLE = 0.6
+"""Alpha from which on a scale of several items is interpreted; below, its items measure different
+things."""
 
 
 def scale_table(frames: StudyFrames, instrument: Instrument) -> pd.DataFrame:
     """Return one row per subscale and condition: Cronbach's alpha, and the score.
 
-    A person's score is the mean of the subscale's items, reverse-coded ones turned; who left an
-    item out, or was not asked, has none and counts as incomplete. Items that were not asked after
-    a condition are not part of its score.
+    A person's score is the mean of the subscale's items, reverse-coded ones turned, on the
+    instrument's own scale of scores; who left an item out, or was not asked, has none and counts
+    as incomplete. Items that were not asked after a condition are not part of its score.
     """
     rows = []
-    for subscale in dict.fromkeys(item.subscale for item in instrument.items):
-        items = [item for item in instrument.items if item.subscale == subscale]
-        for condition in frames.conditions:
-            sheets = _sheets(frames, instrument, items, condition)
-            if sheets.empty:
+    for subscale in subscales(instrument):
+        for condition in (*frames.conditions, WHOLE_SESSION):
+            answers = sheets(frames, instrument, subscale, condition)
+            if answers.empty:
                 continue
-            alpha = cronbach_alpha(sheets.to_numpy())
-            score = describe(sheets.dropna().mean(axis=1))
+            alpha = cronbach_alpha(answers.to_numpy())
+            score = describe(scores(frames, instrument, subscale, condition))
             rows.append(
                 {
                     "subscale": subscale,
                     "condition": condition,
-                    "items": sheets.shape[1],
+                    "items": answers.shape[1],
                     "n": score.n,
                     "incomplete": len(frames.participants) - score.n,
                     "mean": score.mean,
@@ -36,7 +41,7 @@ def scale_table(frames: StudyFrames, instrument: Instrument) -> pd.DataFrame:
                     "alpha": alpha.estimate,
                     "alpha_low": alpha.low,
                     "alpha_high": alpha.high,
-                    "note": alpha.why_not or "",
+                    "note": alpha.why_not or _unreliable(alpha.estimate),
                 }
             )
     columns = ["subscale", "condition", "items", "n", "incomplete", "mean", "sd", "alpha",
@@ -44,20 +49,5 @@ def scale_table(frames: StudyFrames, instrument: Instrument) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=columns)
 
 
-def _sheets(
-    frames: StudyFrames, instrument: Instrument, items: list[Item], condition: str
-) -> pd.DataFrame:
-    """Return turned answers after a condition: participants by items."""
-    answers = frames.surveys
-    chosen = (
-        (answers["instrument"] == instrument.name)
-        & (answers["condition"] == condition)
-        & answers["item"].isin([item.id for item in items])
-    )
-    given = answers[chosen]
-    given = given.assign(value=pd.to_numeric(given["response"]).astype("float64"))
-    sheets = given.pivot_table(index="participant", columns="item", values="value", dropna=False)
-    for item in items:
-        if item.reverse and item.id in sheets:
-            sheets[item.id] = instrument.points + 1 - sheets[item.id]
-    return sheets
+def _unreliable(alpha: float) -> str:
+    return f"not interpreted: alpha below {RELIABLE:g}" if alpha < RELIABLE else ""

@@ -19,6 +19,8 @@ from harness.cli import (
     imports,
     listing,
     live,
+    power,
+    preregister,
     recover,
     replay,
     report,
@@ -74,6 +76,8 @@ app.command("reproduce")(reproduce.reproduce)
 app.command("replay")(replay.replay)
 app.command("export")(export.export)
 app.add_typer(imports.app, name="import")
+app.command("power")(power.power)
+app.command("preregister")(preregister.preregister)
 app.command("validate")(validate.validate)
 app.command("check")(check.check)
 app.command("check-part")(check_part.check_part)

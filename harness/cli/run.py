@@ -34,6 +34,10 @@ def run(
     course: Annotated[
         str | None, typer.Option(help="Another course than the protocol's: a name or a file.")
     ] = None,
+    registration: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Follow this registration; another plan is refused."),
+    ] = None,
     retry_failed: Annotated[
         bool, typer.Option("--retry-failed", help="Run sessions again that failed before.")
     ] = False,
@@ -60,6 +64,7 @@ def run(
         jobs,
         scheduler,
         course,
+        registration=registration,
         retry_failed=retry_failed,
         trust=trust,
     )
@@ -85,6 +90,7 @@ def _run(
     scheduler: str | None,
     course: str | None,
     *,
+    registration: Path | None,
     retry_failed: bool,
     trust: bool,
 ) -> "tuple[Path, Outcome]":
@@ -100,6 +106,12 @@ def _run(
 
     study = resolve_study(protocol, course=course, participants=participants)
     study = trusted_study(study, asked=trust)
+    plan = None
+    if registration is not None:
+        from protocols.registration import copy_registration, read_registration, registered
+
+        plan = read_registration(registration)
+        study = registered(study, plan)
     folder = out or Path("studies") / f"{study.protocol.name}-seed{seed}"
     with counted_sessions() as tell:
         outcome = run_study(
@@ -110,6 +122,8 @@ def _run(
             scheduler=scheduler,
             retry_failed=retry_failed,
         )
+    if plan is not None:
+        copy_registration(plan, folder)
     return folder, outcome
 
 

@@ -21,6 +21,8 @@ def validate(
 
     Example: lad-study validate my-study.yaml
     """
+    from analysis.attainable import out_of_reach
+    from protocols.balance import balance_in_words
     from protocols.course.schema import Course
     from protocols.load import check_file
     from protocols.parts import installed_parts
@@ -37,6 +39,10 @@ def validate(
             f"{file}: a protocol: {protocol.cohort.participants} participants, "
             f"{len(protocol.laps)} laps on {checked.course.name}"
         )
+        for sentence in balance_in_words(protocol):
+            say(f"Orders: {sentence}.")
+        for warning in out_of_reach(protocol):
+            say(f"Caution: {warning}")
         for part in checked.beside:
             say(f"{part.place}: '{part.use}' was not tried: validate does not run {part.module}")
         for use, package in installed_parts(protocol, checked.beside).items():

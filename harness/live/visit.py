@@ -10,10 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from harness.live.mailbox import Mailbox
+from harness.session.borrowed import make_all_parts
 from harness.session.clock import Clock, LapStoppedError, StopReason, VirtualClock, WallClock
 from harness.session.journal import FileJournal
 from harness.session.lap import LapParts, Step
-from harness.session.parts import Seats, SessionParts, make_parts
+from harness.session.parts import Seats, SessionParts
 from harness.session.replay import (
     ReplayedClock,
     ReplayedDemonstrator,
@@ -34,6 +35,7 @@ from participants.live.seat import Request
 from protocols.record.journal import journal_header, read_journal
 from protocols.record.rows import LapRow, participant_id
 from protocols.record.session import SessionRecord
+from protocols.record.sessions import model_before
 
 GRACE_S = 2.0
 """A lap is paused this long after its person's connection was lost: the chair stands by then."""
@@ -308,12 +310,14 @@ class Visit:
             self.participant if self._living.participant else None,
             _DemonstratorsSeat(self) if self._living.demonstrator else None,
         )
-        parts = make_parts(run, self._number, seats=seats)
+        world = self._make_world()
+        lent = replace(run, previous=model_before(self._path.parents[1], self._number))
+        parts = make_all_parts(lent, self._number, world, seats)
         header = journal_header(run.study, run.seed, name, kind_of(parts.lap.driver))
         self._journal = FileJournal(self._path, header)
         people, clock = self._with_journal(parts, self._journal)
         session = Session(
-            run, self._number, self._make_world(), people,
+            run, self._number, world, people,
             clock=clock, journal=self._journal, watch=self, repeats=self._repeats,
         )  # fmt: skip
         self.state = "running"

@@ -13,10 +13,10 @@ from protocols.course.schema import Course
 from protocols.files.errors import InputError
 from protocols.laps import PlannedLap
 from protocols.load import load_course, resolve_study
+from protocols.model_choice import ModelChoice
 from protocols.record.session import MODEL_FILE
 from protocols.record.sessions import SESSIONS
 from protocols.resolved import ResolvedStudy
-from protocols.study import ModelChoice
 from protocols.variants import DEFAULT, VARIANTS, Variant
 
 ROBUSTNESS, GENERALISATION = "robustness", "generalisation"

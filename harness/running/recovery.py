@@ -1,10 +1,11 @@
 """Rebuild sessions from journals: a killed process loses nothing that a person did."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from harness.running.sessions import world_of
+from harness.session.borrowed import borrowed_models
 from harness.session.replay import replay
 from harness.session.study_run import StudyRun
 from protocols.files.errors import InputError
@@ -12,7 +13,13 @@ from protocols.record.header import read_header
 from protocols.record.journal import JOURNALS, read_journal
 from protocols.record.rows import participant_number
 from protocols.record.session import encode
-from protocols.record.store import build_tables, locked, whole_sessions, write_session
+from protocols.record.store import (
+    build_tables,
+    locked,
+    model_before,
+    whole_sessions,
+    write_session,
+)
 from protocols.resolved import ResolvedStudy
 
 
@@ -79,5 +86,7 @@ def _recover(folder: Path, run: StudyRun, name: str) -> None:
     journal = read_journal(folder / JOURNALS / f"{name}.jsonl")
     if not number:
         raise InputError(f"{journal.path}: no participant is called {name!r}; allowed: P0001, ...")
-    record = replay(journal, run, number, world_of(run))
+    world = world_of(run)
+    lent = replace(run, previous=model_before(folder, number))
+    record = replay(journal, run, number, world, borrowed_models(lent, number, world))
     write_session(folder, name, encode(record, run.digest), keep_damaged=True)

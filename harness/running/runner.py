@@ -7,9 +7,10 @@ from pathlib import Path
 
 from harness.running.open_workers import open_workers
 from harness.running.sessions import run_sessions, try_parts
-from harness.running.workers import Died, Failed, Finished
-from harness.running.writer import Writer
+from harness.running.workers import Died, Failed, Finished, Workers
+from harness.running.writer import AT_ONCE, Writer
 from harness.session.study_run import StudyRun, portable
+from protocols.model_choice import borrows_from_previous
 from protocols.record.header import StudyHeader
 from protocols.record.rows import participant_id
 from protocols.record.store import (
@@ -18,6 +19,7 @@ from protocols.record.store import (
     failures,
     finished_sessions,
     locked,
+    model_before,
     open_folder,
     raised,
     refuse_another_study,
@@ -97,9 +99,27 @@ def run_study(
             missing = _missing(named, out, retry_failed=retry_failed)
             before = len(_planned(run)) - len(missing)
             counted = (lambda ended: tell(before + ended, len(_planned(run)))) if tell else None
-            finished = _write(out, run_sessions(workers, named, missing), counted)
+            # A session that lends its model to the next is on the disk before that begins.
+            at_once = 1 if borrows_from_previous(run.study.protocol.models) else AT_ONCE
+            sessions = _sessions(workers, named, missing, out)
+            finished = _write(out, sessions, counted, at_once)
             build_tables(out, named.digest)
             return _outcome(named, out, finished)
+
+
+def _sessions(
+    workers: Workers, run: StudyRun, missing: list[int], out: Path
+) -> Iterator[tuple[int, Finished | Failed | Died]]:
+    """Run the missing sessions: one after the other where one needs the model of another.
+
+    The one before must be on disk before the next begins, so this must be read as it is written.
+    """
+    if not borrows_from_previous(run.study.protocol.models):
+        yield from run_sessions(workers, run, missing)
+        return
+    for number in sorted(missing):
+        lent = replace(run, previous=model_before(out, number))
+        yield from run_sessions(workers, lent, [number])
 
 
 def _complete(run: StudyRun, out: Path) -> Outcome:
@@ -140,12 +160,13 @@ def _write(
     out: Path,
     sessions: Iterable[tuple[int, Finished | Failed | Died]],
     tell: Callable[[int], None] | None,
+    at_once: int = AT_ONCE,
 ) -> int:
     """Write each session as it comes in; return how many finished."""
     finished = ended = 0
     tell = tell or (lambda _: None)
     tell(0)
-    with Writer(out) as writer:
+    with Writer(out, at_once) as writer:
         for number, session in sessions:
             name = participant_id(number)
             if isinstance(session, Died) and session.retried:

@@ -73,11 +73,13 @@ def attempt(run: "StudyRun", number: int) -> Finished | Failed | Died:
 
 
 def _session(run: "StudyRun", number: int) -> dict[str, bytes]:
-    from harness.session.parts import make_parts  # noqa: PLC0415  # the runner needs no simulator
+    from harness.session.borrowed import make_all_parts  # noqa: PLC0415  # the runner needs none
     from harness.session.session import Session  # noqa: PLC0415  # the same
     from protocols.record.session import encode  # noqa: PLC0415  # the same
 
-    return encode(Session(run, number, world_of(run), make_parts(run, number)).run(), run.digest)
+    world = world_of(run)
+    parts = make_all_parts(run, number, world)
+    return encode(Session(run, number, world, parts).run(), run.digest)
 
 
 def _part_fault(run: "StudyRun", _number: int) -> InputError | None:

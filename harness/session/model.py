@@ -8,8 +8,8 @@ from lad.lad_assistant import LADAssistant
 from participants.part_loader import load_factory, refuse_missing_methods
 from protocols.code_beside import PartBeside
 from protocols.files.errors import InputError
+from protocols.model_choice import ModelChoice
 from protocols.shipped_parts import LAD
-from protocols.study import ModelChoice
 
 
 def make_model(

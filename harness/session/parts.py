@@ -1,8 +1,8 @@
 """What takes part in one session: the person, and every part that the protocol names."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from harness.session.lap import LapParts
 from harness.session.model import make_model
 from harness.session.seeds import generator
-from harness.session.study_run import StudyRun
+from harness.session.study_run import StudyRun, of_one
 from lad.assistant import Assistant
 from participants.cohort import Person
 from participants.cohort import draw_person as drawn_from_cohort
@@ -25,6 +25,7 @@ from participants.sight import Sight
 from participants.survey import Question, Respondent
 from protocols.cohort import ImpairmentChoice
 from protocols.files.errors import InputError
+from protocols.groups import Group
 from protocols.instrument import Instrument, Item
 from protocols.order import laps_of
 from protocols.record.rows import participant_id
@@ -45,12 +46,15 @@ class SessionParts:
         Answers the questionnaires; None for a study without one.
     reader
         Reads the pages beside laps and questionnaires.
+    models
+        Models that others have taught, by the protocol's names for them.
     """
 
     person: Person
     lap: LapParts
     respondent: Respondent | None
     reader: PageReader
+    models: Mapping[str, Assistant] = field(default_factory=dict)
 
 
 def make_every_part(run: StudyRun, *, only_shipped: bool = False) -> None:
@@ -93,6 +97,21 @@ def make_every_part(run: StudyRun, *, only_shipped: bool = False) -> None:
     if cohort.respondent is not None and wanted("respondent", cohort.respondent.use):
         with _placed(run, "cohort.respondent"):
             _respondent(run, 1, person)
+    for name, group in protocol.groups.items():
+        _make_parts_of_group(run, name, group, wanted)
+
+
+def _make_parts_of_group(
+    run: StudyRun, name: str, group: Group, wanted: Callable[[Role, str], bool]
+) -> None:
+    """Make what is different for a group."""
+    own = _as_group(run, group)
+    if group.model is not None and wanted("model", group.model.use):
+        with _placed(run, f"groups.{name}.model"):
+            session_model(own, 1)
+    if group.demonstrator is not None and wanted("demonstrator", group.demonstrator.use):
+        with _placed(run, f"groups.{name}.demonstrator"):
+            _demonstrator(own, 1)
 
 
 class _Nobody:
@@ -113,6 +132,16 @@ def _placed(run: StudyRun, where: str) -> Iterator[None]:
     except InputError as error:
         place = run.study.at(where)
         raise InputError(*(f"{place}{fault}" for fault in error.faults)) from error
+
+
+def _as_group(run: StudyRun, group: Group) -> StudyRun:
+    """Return the study with the model and the demonstrator of a group."""
+    protocol = run.study.protocol
+    changes: dict[str, object] = {"model": group.model or protocol.model, "groups": {}}
+    if group.demonstrator is not None:
+        update = {"demonstrator": group.demonstrator}
+        changes["cohort"] = protocol.cohort.model_copy(update=update)
+    return replace(run, study=replace(run.study, protocol=protocol.model_copy(update=changes)))
 
 
 def draw_person(run: StudyRun, number: int) -> Person:
@@ -150,6 +179,7 @@ def make_parts(
     InputError
         When a part that the protocol names cannot be made.
     """
+    run = of_one(run, number)
     whose = draw_person(run, number) if person is None else person
     if run.study.protocol.cohort.driver.use == LIVE:
         whose = whose.living()
@@ -215,7 +245,8 @@ def _respondent(
     if choice is None:
         return None
     laps = laps_of(study.protocol, number, run.seed)
-    asked = (pair for planned in laps for pair in study.questions(planned))
+    asked = [pair for planned in laps for pair in study.questions(planned)]
+    asked += study.session_questions
     setup = RespondentSetup(
         questions=tuple(dict.fromkeys(question(*pair) for pair in asked)),
         rng=generator(run.seed, number, "respondent"),
@@ -237,4 +268,6 @@ def question(instrument: Instrument, item: Item) -> Question:
         answer=item.answer,
         lowest=item.lowest,
         highest=item.highest,
+        step=item.step,
+        ends=item.ends,
     )

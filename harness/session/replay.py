@@ -3,6 +3,7 @@
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Any, Protocol
 
 import numpy as np
@@ -14,7 +15,7 @@ from harness.session.parts import SessionParts, draw_person, session_model
 from harness.session.session import Session
 from harness.session.study_run import StudyRun
 from harness.world.world import World
-from lad.assistant import NO_ASSISTANCE, Assistance
+from lad.assistant import NO_ASSISTANCE, Assistance, Assistant
 from lad.command import Command
 from participants.demonstrator import Demonstrator
 from participants.driver import Driver, WithdrewError
@@ -42,7 +43,13 @@ class UnfitEntryError(Exception):
     """The journal's next entry is not what the session comes to."""
 
 
-def replay(journal: RecordedJournal, run: StudyRun, number: int, world: World) -> SessionRecord:
+def replay(
+    journal: RecordedJournal,
+    run: StudyRun,
+    number: int,
+    world: World,
+    models: Mapping[str, Assistant] = MappingProxyType({}),
+) -> SessionRecord:
     """Return the record of a session from what was applied in it.
 
     An unfinished journal gives the record up to its end: the lap under way ends as interrupted,
@@ -56,6 +63,8 @@ def replay(journal: RecordedJournal, run: StudyRun, number: int, world: World) -
         The study and the participant it is of.
     world
         Of the study's course.
+    models
+        Those that others have taught, by the protocol's names for them.
 
     Raises
     ------
@@ -65,7 +74,7 @@ def replay(journal: RecordedJournal, run: StudyRun, number: int, world: World) -
     """
     refuse_other_journal(journal, journal_header(run.study, run.seed, participant_id(number)))
     entries = ReadEntries(journal.entries)
-    parts = parts_to_replay(entries, run, number, journal.header.kind)
+    parts = replace(parts_to_replay(entries, run, number, journal.header.kind), models=models)
     session = Session(
         run, number, world, parts,
         clock=ReplayedClock(entries, None), journal=entries,

@@ -1,20 +1,20 @@
 """One participant's session, stage by stage."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from harness.session.arbitration import ARBITRATIONS
 from harness.session.clock import Clock, LapStoppedError, VirtualClock
 from harness.session.experience import experience_of
 from harness.session.journal import Journal
-from harness.session.lap import Ending, Lap, Recorder, Rules, Step
+from harness.session.lap import Ending, Lap, LapParts, Recorder, Rules, Step
 from harness.session.lap_log import LapLog, summary
 from harness.session.limitation import right_turn_limit, unlimited
 from harness.session.model import basis_vectors, saved
 from harness.session.parts import SessionParts, question
 from harness.session.seeds import fingerprint, generator
 from harness.session.stages import Stage, StageKind, stages_of
-from harness.session.study_run import StudyRun
+from harness.session.study_run import StudyRun, of_one
 from harness.world.world import World
 from lad.assistant import Learner
 from participants.driver import WithdrewError, kind_of
@@ -23,7 +23,9 @@ from protocols.condition import Condition
 from protocols.course.centreline import Centreline
 from protocols.course.gates import GateCounter
 from protocols.exclusion import exclusion_reason
-from protocols.laps import PlannedLap
+from protocols.instrument import Instrument, Item
+from protocols.laps import WHOLE_SESSION, PlannedLap
+from protocols.order import group_of, in_words
 from protocols.record.rows import (
     ENDS_SESSION,
     LapRow,
@@ -79,12 +81,16 @@ class Session:
         repeats: Callable[[LapRow], bool] = lambda _: False,
     ) -> None:
         self._watch, self._repeats = watch, repeats
-        self._run, self._number, self._world = run, number, world
+        self._run, self._number, self._world = of_one(run, number), number, world
         self._parts, self._journal = parts, journal
         self._clock: Clock = VirtualClock() if clock is None else clock
         self._centreline = Centreline(run.study.course)
         self.stages = stages_of(run.study.protocol, number, run.seed)
-        self._planned_laps = sum(stage.kind == "lap" for stage in self.stages)
+        self._planned = tuple(
+            stage.planned
+            for stage in self.stages
+            if stage.kind == "lap" and stage.planned is not None
+        )
         self.done = 0
         self._ended = False
         self._consented = True
@@ -135,9 +141,12 @@ class Session:
             self._ended = ending.reason in ENDS_SESSION
             if not self._ended and self._repeats(self._laps[-1].row):
                 self._repeat(stage)
-        elif stage.planned is not None and stage.kind == "questions":
-            if questions_follow(self._laps[-1].row.end_reason):
-                self._ask(stage.planned)
+        elif stage.kind == "questions":
+            if stage.planned is None:
+                self._ask(self._run.study.session_questions, -1, WHOLE_SESSION)
+            elif questions_follow(self._laps[-1].row.end_reason):
+                row = self._laps[-1].row
+                self._ask(self._run.study.questions(stage.planned), row.lap, row.condition)
         else:
             self._show(stage)
 
@@ -175,9 +184,10 @@ class Session:
 
     def _drive(self, lap: int, planned: PlannedLap) -> Ending:
         """Drive one lap and keep its record."""
-        seed, number, parts = self._run.seed, self._number, self._parts.lap
+        seed, number = self._run.seed, self._number
         protocol = self._run.study.protocol
         condition = protocol.conditions[planned.condition]
+        parts = self._parts_with(condition.model)
         self._world.reset(generator(seed, number, f"lap {lap}/world"))
         parts.driver.start_lap(lap, generator(seed, number, f"lap {lap}/driver"))
         if parts.demonstrator is not None:
@@ -198,6 +208,7 @@ class Session:
             assistant=condition.assistant,
             training=condition.training and isinstance(parts.model, Learner),
             seed=fingerprint(seed, number, f"lap {lap}/world"),
+            place=None if planned.practice else 1 + self._analysed,
             **summary(steps, ending, self._world.period),
             **log.quality(),
             **basis_vectors(parts.model),
@@ -205,22 +216,31 @@ class Session:
         self._laps.append(RecordedLap(row, steps))
         return ending
 
-    def _ask(self, planned: PlannedLap) -> None:
-        """Ask what is asked after the last lap."""
-        questions = self._run.study.questions(planned)
-        respondent, row = self._parts.respondent, self._laps[-1].row
+    @property
+    def _analysed(self) -> int:
+        """How many laps to analyse are on record; one that was driven again counts twice."""
+        return sum(not recorded.row.practice for recorded in self._laps)
+
+    def _parts_with(self, model: str) -> LapParts:
+        """Return what takes part in a lap, with the participant's own or a borrowed model."""
+        own = self._parts.lap
+        return own if model == "own" else replace(own, model=self._parts.models[model])
+
+    def _ask(self, questions: Sequence[tuple[Instrument, Item]], lap: int, condition: str) -> None:
+        """Ask what is asked about a lap, or after the last one about all of them."""
+        respondent = self._parts.respondent
         if respondent is None:
             return
-        rng = generator(self._run.seed, self._number, f"lap {row.lap}/survey")
+        rng = generator(self._run.seed, self._number, f"lap {lap}/survey")
         asked = [question(*pair) for pair in questions]
         answers = respondent.answer(asked, experience_of(self._laps), rng)
         if self._journal is not None:
             self._journal.answers(answers)
         self._answers += [
             SurveyRow(
-                participant=row.participant,
-                lap=row.lap,
-                condition=row.condition,
+                participant=participant_id(self._number),
+                lap=lap,
+                condition=condition,
                 instrument=instrument.name,
                 item=item.id,
                 **response_fields(item, answer, instrument.points),
@@ -231,7 +251,7 @@ class Session:
     def _participant_row(self) -> ParticipantRow:
         protocol, person = self._run.study.protocol, self._parts.person
         rows = [recorded.row for recorded in self._laps]
-        planned = self._planned_laps
+        planned = len(self._planned)
         reason = exclusion_reason(protocol.exclusion, rows)
         entered: Mapping[str, object] = person.particulars() | self._entered
         return ParticipantRow(
@@ -249,6 +269,8 @@ class Session:
             laps_driven=len(rows),
             excluded=reason is not None,
             exclusion_reason=reason,
+            order=in_words(self._planned),
+            group=group_of(protocol, self._number, self._run.seed),
         )
 
 

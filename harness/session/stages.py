@@ -60,6 +60,8 @@ def stages_of(protocol: StudyProtocol, number: int, seed: int) -> tuple[Stage, .
             stages.append(Stage("questions", lap, planned))
         if planned.break_s:
             stages.append(Stage("break", lap, planned))
+    if protocol.survey:
+        stages.append(Stage("questions"))
     if protocol.debrief is not None:
         stages.append(Stage("debrief"))
     return tuple(stages)

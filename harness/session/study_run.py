@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from participants.registry import portable_driver_options
+from protocols.order import of_participant
 from protocols.resolved import ResolvedStudy
 
 
@@ -20,11 +21,20 @@ class StudyRun:
     digest
         By which sessions say what study they belong to; None when they are not kept. It is the
         study directory's own, which an earlier version may have computed.
+    previous
+        The model that the participant before has left, where a condition borrows it; None for none.
     """
 
     study: ResolvedStudy
     seed: int
     digest: str | None = None
+    previous: bytes | None = None
+
+
+def of_one(run: StudyRun, number: int) -> StudyRun:
+    """Return the study as it is for one participant: with what is different for the group."""
+    protocol = of_participant(run.study.protocol, number, run.seed)
+    return replace(run, study=replace(run.study, protocol=protocol))
 
 
 def portable(run: StudyRun) -> StudyRun:

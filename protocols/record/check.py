@@ -6,7 +6,7 @@ from pathlib import Path
 import pyarrow as pa
 
 from protocols.files.errors import InputError
-from protocols.order import laps_of
+from protocols.order import group_of, in_words, laps_of
 from protocols.record.codebook import CODEBOOK_FILE, codebook_json
 from protocols.record.column import SCHEMA_VERSIONS, arrow_schema, brought_up_to_date
 from protocols.record.elsewhere.faults import Tell, foreign_faults
@@ -18,7 +18,12 @@ from protocols.record.merge import STUDY_TABLES, session_rows
 from protocols.record.parquet import parquet_shape, read_parquet
 from protocols.record.reader import open_study
 from protocols.record.resume import resume_command
-from protocols.record.rows import participant_id, participant_number, questions_follow
+from protocols.record.rows import (
+    ENDS_SESSION,
+    participant_id,
+    participant_number,
+    questions_follow,
+)
 from protocols.record.session import (
     EVENTS_FILE,
     LAPS_FILE,
@@ -30,6 +35,7 @@ from protocols.record.session import (
 from protocols.record.sessions import SESSIONS, read_manifest, session_faults, session_folders
 from protocols.record.steps import STEP_COLUMNS
 from protocols.record.tables import LAP_COLUMNS, PARTICIPANT_COLUMNS, SURVEY_COLUMNS
+from protocols.registration import registration_faults
 from protocols.resolved import ResolvedStudy
 
 
@@ -54,6 +60,7 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
         *_header_faults(folder, header, again),
         *_missing_sessions(folder, header, sessions, again),
         *_sessions_beyond(folder, header, sessions),
+        *registration_faults(folder, header.study),
     ]
     sound = []
     for number, session in enumerate(sessions, start=1):
@@ -154,8 +161,23 @@ def _content_faults(session: Path, study: ResolvedStudy, seed: int) -> Iterator[
     driven = participant["laps_driven"].to_pylist()
     if driven != [laps.num_rows]:
         yield f"{session / LAPS_FILE}: {laps.num_rows} laps; the participant's row has {driven}"
+    yield from _allocation_faults(session, participant, study, seed)
     yield from _lap_faults(session, laps)
     yield from _survey_faults(session, laps, surveys, study, seed)
+
+
+def _allocation_faults(
+    session: Path, participant: pa.Table, study: ResolvedStudy, seed: int
+) -> Iterator[str]:
+    """Compare order and group with those the protocol gives; a record of before has neither."""
+    number = participant_number(session.name)
+    given = (
+        in_words(laps_of(study.protocol, number, seed)),
+        group_of(study.protocol, number, seed),
+    )
+    for row in participant.select(["order", "group"]).to_pylist():
+        if row["order"] is not None and (row["order"], row["group"]) != given:
+            yield f"{session / PARTICIPANT_FILE}: another order or group than the protocol gives"
 
 
 def _lap_faults(session: Path, laps: pa.Table) -> Iterator[str]:
@@ -194,6 +216,9 @@ def _survey_faults(
         if questions_follow(row["end_reason"]) and row["lap"] in planned
         for instrument, item in study.questions(planned[row["lap"]])
     ]
+    over = all(reason not in ENDS_SESSION for reason in laps["end_reason"].to_pylist())
+    if over and laps.num_rows == len(planned):
+        wanted += [(-1, i.name, item.id) for i, item in study.session_questions]
     if there != wanted:
         yield (
             f"{session / SURVEYS_FILE}: {len(there)} answers; the protocol asks {len(wanted)} "

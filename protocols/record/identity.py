@@ -16,15 +16,23 @@ _ABSENT = object()
 _LATER: Mapping[str, Mapping[str, Any]] = {
     "protocol": {
         "hold_s": 0.3,
+        "orders": {"use": "fixed", "over": [], "before": [], "list": []},
+        "groups": {},
+        "models": {},
+        "registration": None,
         "consent": None,
         "demographics": [],
+        "survey": [],
         "debrief": None,
         "live": LiveSettings().model_dump(mode="json"),
     },
     "consent": {"sharing": False},
     "lap": {"break_s": 0.0, "until_comfortable": False},
+    "condition": {"model": "own"},
     "exclusion": {"max_late_share": None, "max_input_age_s": None, "max_interruptions": None},
-    "item": {"answer": "point", "lowest": None, "highest": None},
+    "item": {"answer": "point", "lowest": None, "highest": None, "step": None, "ends": None},
+    "instrument": {"score": None},
+    "analysis": {"margin_reason": "", "unfinished": "complete pairs"},
 }
 """Fields that came after the first version, with their defaults. A study that does not use them
 is the study it was: its digest and its record stay the same."""
@@ -65,7 +73,7 @@ def identity_differences(here: Mapping[str, Any], wanted: Mapping[str, Any]) -> 
 def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
     """Return everything but the participant's number that a session depends on, as plain data."""
     protocol = study.protocol.model_dump(mode="json", by_alias=True)
-    del protocol["cohort"]["participants"]
+    del protocol["cohort"]["participants"], protocol["cohort"]["expected_dropout"]
     for field in _ABOUT:
         del protocol[field]
     _leave_out_defaults(protocol, "protocol")
@@ -74,7 +82,16 @@ def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
         _leave_out_defaults(protocol["consent"], "consent")
     for lap in protocol["laps"]:
         _leave_out_defaults(lap, "lap")
+    for model in protocol.get("models", {}).values():
+        if model["sha256"] is not None:  # the model itself, wherever it lies
+            del model["path"]
+    for condition in protocol["conditions"].values():
+        _leave_out_defaults(condition, "condition")
+    for analysis in protocol["analyses"]:
+        _leave_out_defaults(analysis, "analysis")
     instruments = [i.model_dump(mode="json", by_alias=True) for i in study.instruments]
+    for instrument in instruments:
+        _leave_out_defaults(instrument, "instrument")
     for item in (item for instrument in instruments for item in instrument["items"]):
         _leave_out_defaults(item, "item")
     return {

@@ -1,6 +1,7 @@
 """The command that resumes the run of a study directory."""
 
 import shlex
+from dataclasses import replace
 from pathlib import Path
 
 from protocols.files.errors import InputError
@@ -29,6 +30,8 @@ def resume_command(folder: Path, header: StudyHeader) -> str:
         *("--seed", str(header.seed)),
         *("--out", str(folder)),
     )
+    if header.protocol.registration is not None:
+        words = (*words, "--registration", str(folder / "registration"))
     return shlex.join(words)
 
 
@@ -41,6 +44,9 @@ def _protocol(header: StudyHeader) -> tuple[str, ...]:
         shipped = resolve_study(name, course=course)
     except InputError:  # a course that does not ship
         return (_FILE,)
+    registration = header.protocol.registration
+    protocol = shipped.protocol.model_copy(update={"registration": registration})
+    shipped = replace(shipped, protocol=protocol)
     if study_digest(shipped, header.seed) != header.digest:
         return (_FILE,)
     own = load_protocol(name).course == course

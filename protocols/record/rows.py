@@ -72,6 +72,8 @@ class ParticipantRow:
     laps_driven: int
     excluded: bool = False
     exclusion_reason: str | None = None
+    order: str | None = None
+    group: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -105,6 +107,7 @@ class LapRow:
     late_share: float | None = None
     input_age_p99_s: float | None = None
     last_segments: tuple[float, ...] | None = None
+    place: int | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -163,7 +166,7 @@ def response_fields(item: Item, answer: float | str | None, points: int) -> dict
     if item.answer == "number" and isinstance(answer, int | float):
         low = -math.inf if item.lowest is None else item.lowest
         high = math.inf if item.highest is None else item.highest
-        if low <= answer <= high and math.isfinite(answer):
+        if low <= answer <= high and math.isfinite(answer) and item.on_a_step(answer):
             return {"response_number": float(answer)}
     if item.answer == "point" and isinstance(answer, int) and 1 <= answer <= points:
         return {"response": int(answer)}

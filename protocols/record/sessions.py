@@ -7,6 +7,8 @@ from pathlib import Path
 
 from protocols.record.atomic import is_partial, partial_beside, sync_folder, write_through
 from protocols.record.manifest import MANIFEST_FILE, Manifest, entry, parse_manifest
+from protocols.record.rows import participant_id
+from protocols.record.session import MODEL_FILE
 
 SESSIONS = "sessions"
 
@@ -117,6 +119,16 @@ def whole_sessions(folder: Path, study: str | None = None) -> tuple[str, ...]:
         for path in session_folders(folder)
         if is_whole(path, study) and not any(session_faults(path))
     )
+
+
+def model_before(folder: Path, number: int) -> bytes | None:
+    """Return the model that the nearest participant before a number has left; None for none."""
+    for earlier in range(number - 1, 0, -1):
+        session = folder / SESSIONS / participant_id(earlier)
+        path = session / MODEL_FILE
+        if path.is_file() and is_whole(session):
+            return path.read_bytes()
+    return None
 
 
 def session_folders(folder: Path) -> tuple[Path, ...]:

@@ -14,7 +14,12 @@ from protocols.record.logs import (
     write_warnings,
 )
 from protocols.record.merge import build_tables
-from protocols.record.sessions import finished_sessions, whole_sessions, write_session
+from protocols.record.sessions import (
+    finished_sessions,
+    model_before,
+    whole_sessions,
+    write_session,
+)
 
 __all__ = [
     "build_tables",
@@ -23,6 +28,7 @@ __all__ = [
     "failures",
     "finished_sessions",
     "locked",
+    "model_before",
     "open_folder",
     "raised",
     "refuse_another_study",

@@ -28,6 +28,10 @@ PARTICIPANT_COLUMNS: tuple[Column, ...] = (
     Column("excluded", pa.bool_(), "Whether the protocol's exclusion rules apply"),
     Column("exclusion_reason", pa.string(), "The rule that applied; missing when not excluded",
            nullable=True),
+    Column("order", pa.string(), "Order of the analysed laps that the participant was given: "
+           "conditions with > between them", nullable=True, since=2),
+    Column("group", pa.string(), "Group of the participant; missing in a study without groups",
+           nullable=True, since=2),
 )  # fmt: skip
 
 LAP_COLUMNS: tuple[Column, ...] = (
@@ -69,12 +73,14 @@ LAP_COLUMNS: tuple[Column, ...] = (
            "missing for a simulated driver", "s", "0 or more", nullable=True, since=2),
     Column("last_segments", pa.list_(pa.field("element", _F)), "Laser segments after the last "
            "step, from right to left", "m", "0 to 4", nullable=True, since=2),
+    Column("place", pa.int16(), "Position among the participant's analysed laps, counted from 1; "
+           "missing for practice", "", "1 or more", nullable=True, since=2),
 )  # fmt: skip
 
 SURVEY_COLUMNS: tuple[Column, ...] = (
     _ID,
-    Column("lap", pa.int16(), "Lap the answer is about"),
-    Column("condition", pa.string(), "Condition of that lap"),
+    Column("lap", pa.int16(), "Lap the answer is about; -1 for the whole session"),
+    Column("condition", pa.string(), "Condition of that lap; (session) for the whole session"),
     Column("instrument", pa.string(), "Instrument as the protocol names it"),
     Column("item", pa.string(), "Item of the instrument, e.g. Q7"),
     Column("response", pa.int8(), "Answer on the item's scale, as given (reverse-coded items are "

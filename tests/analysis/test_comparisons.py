@@ -17,7 +17,7 @@ def test_confirmatory_comparisons_are_corrected_together(study):
     confirmatory = [c for c in found if c.kind == "confirmatory"]
     assert [c.name for c in found] == [c.name for c in study.protocol.analyses]
     assert len(confirmatory) == 3
-    expected = holm([c.signed_rank.p for c in confirmatory])
+    expected = holm([c.lap_time.test.p for c in confirmatory])
     assert [c.p_holm for c in confirmatory] == pytest.approx(expected)
     assert all(np.isnan(c.p_holm) for c in found if c.kind == "exploratory")
 
@@ -81,6 +81,24 @@ def test_a_declared_margin_makes_equivalence_what_is_confirmed(study):
     assert same.equivalence is not None
     assert same.p_declared == same.equivalence.p
     assert [c.p_holm for c in found] == pytest.approx(holm([c.p_declared for c in found]))
+
+
+def test_items_of_an_instrument_are_corrected_together(study):
+    """Holm over all 31 comparisons of items, beside the uncorrected p."""
+    items = [f"Q{i}" for i in range(1, 12)]
+    found = item_comparisons(study_frames(study), "driving-assistance", items)
+    assert [c.p_items for c in found] == pytest.approx(holm([c.signed_rank.p for c in found]))
+
+
+@pytest.mark.parametrize(("people", "least"), [(6, 6 / 64), (7, 6 / 128)])
+def test_the_smallest_p_after_holm_is_known(make_study, people, least):
+    """Three tests: with six complete pairs none can be below .094, with seven .047."""
+    for c in declared_comparisons(study_frames(make_study(participants=people))):
+        if c.kind == "confirmatory":
+            assert c.smallest_p == pytest.approx(least)
+            assert c.p_holm >= c.smallest_p
+        if c.margin is not None:
+            assert np.isnan(c.smallest_p)
 
 
 def test_equal_answers_cannot_be_tested(make_study):

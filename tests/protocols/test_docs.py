@@ -20,8 +20,9 @@ from protocols.condition import Condition, LimitationSettings
 from protocols.declared import LAP_OUTCOMES, Comparison, Exclusion
 from protocols.instrument import Instrument, Item
 from protocols.laps import AskedInstrument, PlannedLap
+from protocols.model_choice import ModelChoice
 from protocols.start_noise import StartNoise
-from protocols.study import LaserSettings, ModelChoice, StudyProtocol
+from protocols.study import LaserSettings, StudyProtocol
 
 _PAGE = (Path(__file__).parents[2] / "docs" / "protocols.md").read_text(encoding="utf-8")
 _PROSE = re.sub(r"```.*?```", "", _PAGE, flags=re.DOTALL)

@@ -32,7 +32,7 @@ def _instrument(**changes: Any) -> Instrument:
 def test_the_papers_eleven_statements_ship_word_for_word():
     """Section V.A: eleven statements on a five-point scale, the first four after every lap."""
     instrument = load_instrument("driving-assistance")
-    assert shipped_instruments() == ("driving-assistance",)
+    assert shipped_instruments() == ("driving-assistance", "nasa-tlx", "sus")
     assert tuple(item.text for item in instrument.items) == _STATEMENTS
     assert instrument.ids(assisted=True) == tuple(f"Q{n}" for n in range(1, 12))
     assert instrument.ids(assisted=False) == ("Q1", "Q2", "Q3", "Q4")

@@ -2,24 +2,26 @@
 
 import math
 
+from analysis.attainable import ALPHA
 from analysis.comparisons import PairedComparison
 from analysis.figures.effects import effect_figure
 from analysis.frames import StudyFrames
 from analysis.outcomes import by_participant
 from analysis.practice import order_confounded, other_orders
 from analysis.report.blocks import Block, Caution, Fact, Facts, Paragraph, Picture, Section
-from analysis.report.numbers import count, interval, is_p, number, percent, plural
+from analysis.report.numbers import count, interval, is_p, number, p_value, percent, plural
+from analysis.report.sections.registration import said_of
 from analysis.results import StudyResults
 from analysis.roles import reference_condition
 from analysis.stats.result import TestResult
-
-ALPHA = 0.05
 
 
 def answer_section(results: StudyResults) -> Section:
     """Return the answers, each with its size and its certainty."""
     chosen = _chosen(results)
     blocks: list[Block] = []
+    if results.registered is not None:
+        blocks.append(Paragraph(said_of(results.registered)))
     if chosen:
         blocks.append(Facts(tuple(_fact(results, c) for c in chosen)))
         blocks += [Paragraph(_sentence(c)) for c in chosen]
@@ -50,39 +52,58 @@ def _nothing_to_say(results: StudyResults) -> str:
 
 def _fact(results: StudyResults, c: PairedComparison) -> Fact:
     question = f"{c.condition} against {c.reference}"
-    if c.difference is None or not c.difference.computed:
+    if not c.lead.computed:
         return Fact(question, "cannot be said", f"{_why_not(c)}.")
-    gain = -c.difference.estimate
-    direction = "faster" if gain > 0 else "slower"
-    answer = f"{number(abs(gain))} s {direction}" if gain else "no difference"
     wide = by_participant(results.frames, "lap_time_s")
     faster = int((wide[c.condition] < wide[c.reference]).sum())
-    detail = f"{faster} of {plural(c.complete, 'participant')} faster; {_p(c)}"
-    return Fact(question, answer, detail)
+    detail = (
+        f"{_percent_interval(c.lead)}{_in_seconds(c)}; "
+        f"{faster} of {plural(c.complete, 'participant')} faster; {_p(c)}"
+    )
+    return Fact(question, _size(c.lead), detail)
+
+
+def _size(lead: TestResult) -> str:
+    """Return how much faster or slower laps are, in percent of the reference's lap time."""
+    change = 100 * math.expm1(lead.estimate)
+    if not change:
+        return "no difference"
+    return f"{percent(abs(change))} {'faster' if change < 0 else 'slower'}"
+
+
+def _percent_interval(lead: TestResult) -> str:
+    if not math.isfinite(lead.low):
+        return "; ".join(lead.notes) or "no interval"
+    low, high = (100 * math.expm1(end) for end in (lead.low, lead.high))
+    return f"95% interval {number(low, 0)} to {percent(high)} of the lap time"
+
+
+def _in_seconds(c: PairedComparison) -> str:
+    """Return the same in seconds, where the test of seconds has an estimate."""
+    if c.lap_time is None or not c.lap_time.seconds.computed:
+        return ""
+    seconds = c.lap_time.seconds
+    if not math.isfinite(seconds.low):
+        return f"; {number(seconds.estimate)} s"
+    return f"; {number(seconds.estimate)} s ({interval(seconds.low, seconds.high)})"
 
 
 def _sentence(c: PairedComparison) -> str:
     kind = c.kind if c.declared else "not declared"
     start = f"{c.name[0].upper()}{c.name[1:]} ({kind}): "
-    if c.difference is None or not c.difference.computed:
+    if not c.lead.computed:
         return f"{start}cannot be computed: {_why_not(c)}."
     ratio = c.ratio_of_means
     speedup = "" if ratio is None else f" (a ratio of {percent(100 * ratio.estimate)})"
     text = (
-        f"{start}{c.reference} {number(c.mean_reference)} s, {c.condition} "
-        f"{number(c.mean_condition)} s{speedup}; mean difference "
-        f"{number(c.difference.estimate)} s, {_certainty(c.difference)}; n = {count(c.complete)}"
-        f"{_missing(c)}; {_p(c)}. {_verdict(c)}"
+        f"{start}{c.condition} is {_size(c.lead)} than {c.reference}, {_percent_interval(c.lead)}"
+        f"{_in_seconds(c)}; n = {count(c.complete)}{_missing(c)}; {_p(c)}. Means: {c.reference} "
+        f"{number(c.mean_reference)} s, {c.condition} {number(c.mean_condition)} s{speedup}. "
+        f"{_verdict(c)}{_of_practice(c)}"
     )
     if c.equivalence is not None and c.equivalence.computed:
         text += _equivalence(c, c.equivalence)
-    return text
-
-
-def _certainty(difference: TestResult) -> str:
-    if math.isfinite(difference.low):
-        return f"95% interval {interval(difference.low, difference.high)} s"
-    return "; ".join(difference.notes) or "no interval"
+    return text.replace("is no difference than", "does not differ from")
 
 
 def _equivalence(c: PairedComparison, found: TestResult) -> str:
@@ -97,10 +118,20 @@ def _equivalence(c: PairedComparison, found: TestResult) -> str:
 
 
 def _verdict(c: PairedComparison) -> str:
-    p = c.p_holm if _corrected(c) else c.signed_rank.p
+    p = c.p_holm if _corrected(c) else c.lead.p
     if not math.isfinite(p) or p >= ALPHA:
+        if c.smallest_p > ALPHA:
+            return (
+                f"It could not have been significant with {plural(c.complete, 'complete pair')}: "
+                f"the smallest p that is possible is {p_value(c.smallest_p)}."
+            )
         return "No difference is shown; that is not the same as no difference."
-    direction = "faster" if c.signed_rank.estimate < 0 else "slower"
+    direction = "faster" if c.lead.estimate < 0 else "slower"
+    if c.practice == "confounded":
+        return (
+            f"These laps were {direction}; no verdict on {c.condition} follows, because its place "
+            "in the session may have made them so."
+        )
     if not _corrected(c):
         return (
             f"Laps of {c.condition} tend to be {direction} than of {c.reference}; the test is "
@@ -109,12 +140,25 @@ def _verdict(c: PairedComparison) -> str:
     return f"Laps of {c.condition} are {direction} than of {c.reference}."
 
 
+def _of_practice(c: PairedComparison) -> str:
+    """Return what was done about practice, where something was."""
+    if c.practice == "balanced":
+        return " Each place in the session is balanced over both; its mean is taken off."
+    if c.practice == "adjusted":
+        return (
+            " Place is not balanced over the two: the test is the mixed model's, with the place as "
+            "a factor."
+        )
+    return ""
+
+
 def _p(c: PairedComparison) -> str:
+    test = "mixed model" if c.practice == "adjusted" else "Wilcoxon"
     if _corrected(c):
-        return f"Wilcoxon {is_p(c.p_holm)} after Holm"
-    if c.signed_rank.computed:
-        return f"Wilcoxon {is_p(c.signed_rank.p)}, not corrected"
-    return f"no test: {c.signed_rank.why_not}"
+        return f"{test} {is_p(c.p_holm)} after Holm"
+    if c.lead.computed:
+        return f"{test} {is_p(c.lead.p)}, not corrected"
+    return f"no test: {c.lead.why_not}"
 
 
 def _corrected(c: PairedComparison) -> bool:
@@ -127,7 +171,7 @@ def _missing(c: PairedComparison) -> str:
 
 
 def _why_not(c: PairedComparison) -> str:
-    reasons = [r.why_not for r in (c.difference, c.signed_rank) if r is not None and r.why_not]
+    reasons = [r.why_not for r in (c.lead, c.signed_rank) if r.why_not]
     found = reasons[0] if reasons else "there is nothing to compare"
     return f"{found} (n = {c.complete}, {c.incomplete} missing)"
 
@@ -147,7 +191,23 @@ def _cautions(results: StudyResults) -> list[str]:
             "and condition are confounded. A difference between conditions may be practice in "
             f"part, and no test on these data can tell{_where_shown(results)}."
         )
+    else:
+        found += _unbalanced(results)
     return found
+
+
+def _unbalanced(results: StudyResults) -> list[str]:
+    """Caution about comparisons whose conditions have not had the same places."""
+    pairs = dict.fromkeys(
+        f"{c.condition} and {c.reference}" for c in _chosen(results) if c.practice == "adjusted"
+    )
+    if not pairs:
+        return []
+    text = (
+        f"Place in the session is not balanced over {'; '.join(pairs)}: practice is told from the "
+        "condition only by the mixed model, and rests on its assumptions."
+    )
+    return [text]
 
 
 def _where_shown(results: StudyResults) -> str:
@@ -162,17 +222,15 @@ def _but(frames: StudyFrames) -> str:
 
 
 def _picture(chosen: tuple[PairedComparison, ...]) -> Picture:
-
     said = [
-        f"{c.condition} minus {c.reference} {number(c.difference.estimate)} s "
-        f"({interval(c.difference.low, c.difference.high)})"
+        f"{c.condition} is {_size(c.lead)} than {c.reference}, {_percent_interval(c.lead)}"
         for c in chosen
-        if c.difference is not None and c.difference.computed
+        if c.lead.computed
     ]
     return Picture(
         name="effects",
-        caption="Mean paired differences of lap times with 95% t intervals. Filled: confirmatory; "
-        "open: exploratory. n is given above.",
-        alternative=f"Differences of lap times: {'; '.join(said) or 'none can be computed'}.",
+        caption="Change of lap time against the reference, Hodges-Lehmann estimates of log ratios "
+        "with 95% intervals. Filled: confirmatory; open: exploratory. n is given above.",
+        alternative=f"Changes of lap times: {'; '.join(said) or 'none can be computed'}.",
         figure=effect_figure(chosen),
     )

@@ -6,9 +6,17 @@ from typing import Any
 
 from analysis.comparisons import PairedComparison
 from analysis.report.blocks import Block, Paragraph, Remarks, Section, Shown, table
-from analysis.report.numbers import count, interval, number, p_value, rank_sum, with_interval
+from analysis.report.numbers import (
+    NOTHING,
+    count,
+    interval,
+    number,
+    p_value,
+    rank_sum,
+    with_interval,
+)
 from analysis.results import StudyResults
-from analysis.tables.comparisons import comparison_table
+from analysis.tables.comparisons import comparison_table, sensitivity_table
 
 
 def comparison_section(results: StudyResults) -> Section:
@@ -31,6 +39,12 @@ def comparison_section(results: StudyResults) -> Section:
         caption = "Exploratory comparisons that the protocol declares; p not corrected."
         columns = [_NAMED, *_TEST, *_tost(declared)]
         blocks += _table("exploratory", caption, declared, columns)
+    unfinished = sensitivity_table(results.declared)
+    if len(unfinished):
+        blocks.append(table("unfinished", _ABOUT_UNFINISHED, unfinished, _UNFINISHED))
+    if results.without_rule:
+        frame = comparison_table(results.without_rule)
+        blocks.append(table("without_exclusion", _ABOUT_RULE, frame, [_NAMED, *_TEST, _HOLM]))
     if others:
         caption = (
             "Exploratory: lap times of the pairs of conditions that the protocol does not declare; "
@@ -56,6 +70,18 @@ def _tost(comparisons: Sequence[PairedComparison]) -> list[Shown]:
     """Return the columns of the test of equivalence where a comparison asks for it."""
     return _TOST if any(c.equivalence is not None for c in comparisons) else []
 
+
+_ABOUT_UNFINISHED = (
+    "Lap times with unfinished laps counted in three ways. Complete pairs: a pair without both "
+    "times is left out. Limit: a lap that ran into its time limit took that long. Worst rank: it "
+    "is slower than every finished lap. p not corrected."
+)
+
+_ABOUT_RULE = (
+    "The declared comparisons with those kept whom the rule on completed laps excludes. The rule "
+    "looks at the outcome: who does not finish is slow. Where the two tables differ, it is the "
+    "rule that makes the difference."
+)
 
 _ABOUT_KS = (
     "Kolmogorov-Smirnov, lap times of every two conditions. It compares whole distributions and "
@@ -91,11 +117,22 @@ _PAIR = Shown("condition − reference", _pair, words=True)
 _TEST = [
     Shown("pairs", lambda r: count(r["n_pairs"])),
     Shown("missing", lambda r: count(r["n_missing"])),
-    Shown("T+", lambda r: rank_sum(r["wilcoxon_statistic"])),
-    Shown("p", lambda r: p_value(r["wilcoxon_p"])),
+    Shown("practice", lambda r: r["practice"] or NOTHING, words=True),
+    _with_interval("change / %", "change_percent", 1),
+    Shown("p", lambda r: p_value(r["p"])),
 ]
-_HOLM = Shown("p (Holm)", lambda r: p_value(r["wilcoxon_p_holm"]))
+_HOLM = Shown("p (Holm)", lambda r: p_value(r["p_holm"]))
+_UNFINISHED = [
+    _NAMED,
+    Shown("unfinished laps", lambda r: r["unfinished"], words=True),
+    Shown("declared", lambda r: "yes" if r["declared"] else "", words=True),
+    Shown("pairs", lambda r: count(r["n"])),
+    _with_interval("change / %", "change_percent", 1),
+    Shown("p", lambda r: p_value(r["p"])),
+]
 _EFFECTS = [
+    Shown("T+", lambda r: rank_sum(r["wilcoxon_statistic"])),
+    Shown("p, differences", lambda r: p_value(r["wilcoxon_p"])),
     _with_interval("mean difference", "mean_difference", 1),
     _with_interval("pseudomedian", "pseudomedian", 1),
     _with_interval("rank-biserial", "rank_biserial", 2),

@@ -119,6 +119,9 @@ def _comparisons(results: StudyResults) -> Iterator[str]:
         f"Conditions were compared within participants: {tests}; the estimate is the "
         "Hodges-Lehmann pseudomedian."
     )
+    if times := _used(c.lap_time.test for c in pairs if c.lap_time is not None):
+        yield f"Lap times were tested as log ratios, condition / reference: {times}."
+    yield from _unfinished(results)
     laps = results.frames.laps
     if laps.duplicated(["participant", "condition"]).any():
         yield (
@@ -145,13 +148,28 @@ def _comparisons(results: StudyResults) -> Iterator[str]:
         )
 
 
+def _unfinished(results: StudyResults) -> Iterator[str]:
+    """Say what unfinished laps counted as, where there were any."""
+    counted = {c.lap_time.unfinished for c in results.declared if c.lap_time and c.sensitivity}
+    words = {
+        "complete pairs": "left its pair out of the comparison",
+        "limit": "counted as a lap that took its time limit",
+        "worst rank": "counted as slower than every finished lap",
+    }
+    for unfinished in sorted(counted):
+        yield f"As declared, a lap that was not finished {words[unfinished]}."
+
+
 def _models(results: StudyResults) -> Iterator[str]:
     if not (used := _used(results.model)):
         return
     reference = reference_condition(results.frames.parts)
     yield f"Log lap times, every condition against {reference}: {used}."
     if any(found.checks for found in results.model):
-        yield "The fit was checked for convergence and for effects of exactly zero."
+        yield (
+            "Restricted maximum likelihood; standard errors and degrees of freedom after Kenward "
+            "and Roger."
+        )
     else:
         yield "It replaced a mixed model that could not be fitted."
     if _used(results.contrasts):
@@ -171,13 +189,14 @@ def _questionnaires(results: StudyResults) -> Iterator[str]:
         instrument = survey.instrument
         if not survey.table["answered"].any():
             continue
-        yield (
-            f"{instrument.title}: {plural(len(instrument.items), 'item')} on {instrument.points} "
-            "points."
-        )
+        points = f" on {instrument.points} points" if instrument.points else ""
+        yield f"{instrument.title}: {plural(len(instrument.items), 'item')}{points}."
         if _used(c.signed_rank for c in survey.comparisons):
             odds = _used(c.odds for c in survey.comparisons)
-            yield "Items were compared as above" + (f", and by {odds}." if odds else ".")
+            yield (
+                "Items were compared as above, p corrected after Holm over all comparisons of the "
+                "instrument's items" + (f", and by {odds}." if odds else ".")
+            )
         yield from _scores(survey)
     if results.frames.synthetic and any(s.table["answered"].any() for s in results.surveys):
         yield "Answers of synthetic participants were drawn from a model with assumed loadings."

@@ -25,9 +25,19 @@ def practice_section(results: StudyResults) -> Section:
         blocks.append(Remarks((*_about(results.model), *_about_own(results.contrasts))))
     else:
         blocks.append(Paragraph(f"There is no mixed model: {_why_no_model(results)}."))
+    if results.carry_over:
+        frame = _contrasts(results.carry_over, ())
+        blocks.append(table("carry_over", _ABOUT_CARRY_OVER, frame, _MODEL[:6]))
     if not results.practice.empty:
         blocks += _practice(results.frames, results.practice)
     return Section("practice", "Mixed model and practice", tuple(blocks))
+
+
+_ABOUT_CARRY_OVER = (
+    "Exploratory: carry-over, the ratio of lap times after one condition / after another, beside "
+    "condition and place in the mixed model. A ratio away from 1 says that the lap before changes "
+    "the next one, and that comparisons of conditions carry some of it."
+)
 
 
 def _caption(model: Sequence[TestResult]) -> str:
@@ -38,10 +48,16 @@ def _caption(model: Sequence[TestResult]) -> str:
     if not any(found.checks for found in model):
         return f"Exploratory: log lap times without a mixed model, for the reason below. {ratios}"
     return (
-        f"Exploratory: log lap time ~ condition + (1 | participant). {ratios} The model takes all "
+        f"Exploratory: {_formula(model)}. {ratios} The model takes all "
         "contrasts to spread alike; the last three columns, from each participant's own contrast, "
         "do not, and are the ones to read where the standard deviations differ."
     )
+
+
+def _formula(model: Sequence[TestResult]) -> str:
+    """Return the model in words, as its method has it: with the place, where it is identified."""
+    start = next(found.method for found in model if found.method).partition(", REML")[0]
+    return start.removeprefix("linear mixed model, ")
 
 
 def _why_no_model(results: StudyResults) -> str:

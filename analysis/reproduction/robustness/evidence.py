@@ -15,8 +15,8 @@ from analysis.reproduction.accuracy import UNDECIDED, accuracy_table
 from analysis.reproduction.lessons import STUDIES, lessons
 from analysis.reproduction.teaching import MakeModel, teach_in_orders
 from lad.lad_assistant import LADAssistant
+from protocols.model_choice import ModelChoice
 from protocols.record.reader import open_study
-from protocols.study import ModelChoice
 from protocols.variants import VARIANTS, Variant
 
 ROBUSTNESS = "robustness"

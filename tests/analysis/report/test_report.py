@@ -80,7 +80,7 @@ def test_the_answer_comes_first(report):
     """Did assistance help, how much, how sure: before anything else."""
     text = (report / "index.html").read_text()
     assert text.index("Did assistance help?</h2>") < text.index("Participants</h2>")
-    assert re.search(r"\d s faster", text)
+    assert re.search(r"\d% faster", text)
     assert "95% interval" in text
 
 
@@ -200,7 +200,7 @@ def test_minimal_tables_from_elsewhere_are_reported(make_study):
     page = build_page(analyse(open_study(folder)))
     text = render(page, {picture.name: b"" for picture in page.pictures})
     assert "8 laps came without steps" in text
-    assert "s faster" in text
+    assert "% faster" in text
 
 
 def test_answers_of_synthetic_people_are_called_assumptions(study):

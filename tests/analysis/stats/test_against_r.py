@@ -14,6 +14,7 @@ from analysis.stats.kolmogorov_smirnov import asymptotic_p, two_sample_ks
 from analysis.stats.mean_difference import mean_difference
 from analysis.stats.mixed_model import lap_time_model
 from analysis.stats.proportional_odds import proportional_odds
+from analysis.stats.random_intercept import fit_random_intercept
 from analysis.stats.ratio import mean_of_ratios, ratio_of_means
 from analysis.stats.signed_rank import _normal_p, signed_rank, signed_ranks
 from analysis.stats.tost import paired_tost
@@ -120,7 +121,7 @@ def test_tost(difference):
 
 def test_mixed_model_in_a_fixed_order():
     """lme4::lmer; the lap's place is not identified; t on the analysis of variance's df."""
-    laps = pd.read_csv(R / "laps.csv")
+    laps = pd.read_csv(R / "laps.csv").rename(columns={"lap": "place"})
     for found in lap_time_model(laps, "limited", np.random.default_rng(0)):
         condition = found.name.split()[0]
         assert found.estimate == r_optimum(f"lmer.{condition}")
@@ -129,18 +130,67 @@ def test_mixed_model_in_a_fixed_order():
         df = REFERENCE["aov.df_within"]
         p = 2 * scipy_stats.t.sf(abs(found.statistic), df)
         assert found.p == pytest.approx(p)
-        assert f"t on {df:.0f} df" in found.method
+        assert f"t on {df:.0f} Kenward-Roger df" in found.method
         assert "not identified" in found.method
 
 
-def test_mixed_model_where_the_order_is_turned_round():
-    """lme4::lmer with the lap's place, two laps missing."""
-    laps = pd.read_csv(R / "laps_turned.csv")
+MIXED = pd.read_csv(R / "mixed_model.csv", index_col="name")["value"]
+
+
+def mixed_cases():
+    """Return fixtures with missing laps and groups: data, columns of the matrix by R's names."""
+    square = pd.read_csv(R / "laps_square.csv")
+    groups = pd.read_csv(R / "laps_groups.csv")
+    part = groups[groups["condition"] != "baseline"]
+    six = pd.read_csv(R / "laps_six_people.csv")
+    conditions = ("baseline", "human", "model")
+
+    def at(frame, column, value):
+        return (frame[column] == value).to_numpy(dtype=float)
+
+    def columns(frame):
+        return {f"condition{c}": at(frame, "condition", c) for c in conditions}
+
+    places = {f"place{p}": at(square, "place", p) for p in (2, 3, 4)}
+    b = at(groups, "group", "b")
+    crossed = {f"groupb:{name}": b * c for name, c in columns(groups).items()}
+    return {
+        "square": (square, columns(square) | places),
+        "missing": (square, columns(square)),
+        "groups": (groups, {"groupb": b} | columns(groups) | crossed),
+        "between": (part, {"groupb": at(part, "group", "b")}),
+        "six": (six, {"factor(group)b": at(six, "group", "b")}),
+    }
+
+
+@pytest.mark.parametrize("case", ["square", "missing", "groups", "between", "six"])
+def test_mixed_model_with_missing_laps_and_groups(case):
+    """lme4's estimates and errors to 1e-4; lmerTest's Kenward-Roger errors, df and p."""
+    frame, columns = mixed_cases()[case]
+    matrix = np.column_stack([np.ones(len(frame)), *columns.values()])
+    fit = fit_random_intercept(np.log(frame["lap_time_s"]), matrix, frame["participant"])
+    assert fit.between == pytest.approx(MIXED[f"{case}.between"], abs=1e-4)
+    assert fit.within == pytest.approx(MIXED[f"{case}.within"], abs=1e-4)
+    for i, name in enumerate(columns, start=1):
+        weights = np.eye(matrix.shape[1])[i]
+        estimate, error, df = fit.contrast(weights)
+        assert estimate == pytest.approx(MIXED[f"{case}.{name}.estimate"], abs=1e-4)
+        plain = np.sqrt(fit.covariance[i, i])
+        assert plain == pytest.approx(MIXED[f"{case}.{name}.se"], abs=1e-4)
+        assert error == pytest.approx(MIXED[f"{case}.{name}.se_kr"], abs=1e-4)
+        assert df == pytest.approx(MIXED[f"{case}.{name}.df"], rel=1e-3)
+        p = 2 * scipy_stats.t.sf(abs(estimate / error), df)
+        assert p == pytest.approx(MIXED[f"{case}.{name}.p"], abs=1e-3)
+
+
+def test_lap_times_with_their_places():
+    """lme4 with the place as a factor, seven laps missing: the public function's result."""
+    laps = pd.read_csv(R / "laps_square.csv")
     for found in lap_time_model(laps, "limited", np.random.default_rng(0)):
-        condition = found.name.split()[0]
-        assert found.estimate == r_optimum(f"lmer.turned.{condition}")
-        assert found.estimate / found.statistic == r_optimum(f"lmer.turned.{condition}.se")
-        assert "with the lap's place" in found.method
+        name = f"square.condition{found.name.split()[0]}"
+        assert found.estimate == pytest.approx(MIXED[f"{name}.estimate"], abs=1e-4)
+        assert found.p == pytest.approx(MIXED[f"{name}.p"], abs=1e-3)
+        assert "condition + place" in found.method
 
 
 @pytest.mark.parametrize("package", ["polr", "clm"])

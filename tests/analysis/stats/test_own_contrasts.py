@@ -16,7 +16,7 @@ def laps(rng, n=12, spreads=(0.0, 0.17, 0.17, 0.02)):
         for lap, (condition, spread) in enumerate(zip("abcd", spreads, strict=True)):
             noise = rng.normal(0, spread) + (shared if condition in "cd" else 0)
             rows.append((f"P{i}", condition, lap, np.exp(4 + noise)))
-    return pd.DataFrame(rows, columns=["participant", "condition", "lap", "lap_time_s"])
+    return pd.DataFrame(rows, columns=["participant", "condition", "place", "lap_time_s"])
 
 
 def test_with_complete_data_the_estimates_are_the_models():

@@ -37,6 +37,14 @@ def files_below(folder):
         (["report", "nowhere"], ["nowhere"]),
         (["replay", "nowhere", "--participant", "P0001", "--lap", "1"], ["nowhere"]),
         (["replay", "nowhere", "--lap", "1"], ["--participant"]),
+        (["power", "four-lap", "--n", "6:101"], ["101", "quarter", "400", "100"]),
+        (["power", "four-lap", "--n", "many"], ["--n", "many", "6:40"]),
+        (["power", "four-lap", "--n", "9:6"], ["--n", "9:6", "2 or more"]),
+        (["power", "four-lap", "--target", "2"], ["--target", "2", "0.99"]),
+        (["power", "four-lap", "--from", "nowhere"], ["nowhere"]),
+        (["power", "rd-accuracy"], ["rd-accuracy", "analysis"]),
+        (["preregister", "four-lap", "--out", "r", "--amend", "more"], ["no registration"]),
+        (["run", "--registration", "nowhere"], ["nowhere", "no registration"]),
     ],
 )
 def test_one_line_and_exit_code_2(lad_study, tmp_path, arguments, parts):

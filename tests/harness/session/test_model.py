@@ -7,7 +7,7 @@ from harness.session.model import basis_vectors, make_model, saved
 from lad.command import Command
 from lad.lad_assistant import LADAssistant
 from protocols.files.errors import InputError
-from protocols.study import ModelChoice
+from protocols.model_choice import ModelChoice
 
 
 def test_the_shipped_model_gets_the_protocols_parameters():

@@ -176,7 +176,7 @@ def test_without_scikit_learn_one_line_says_how_to_get_it():
         "sys.modules['sklearn.linear_model'] = None\n"
         "from harness.session.model import make_model\n"
         "from protocols.files.errors import InputError\n"
-        "from protocols.study import ModelChoice\n"
+        "from protocols.model_choice import ModelChoice\n"
         "try: make_model(ModelChoice(use='lad.baselines.linear:make'))\n"
         "except InputError as error: print(error)\n"
     )

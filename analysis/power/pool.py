@@ -1,0 +1,114 @@
+"""The people that studies are drawn from, as the declared analyses see them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from analysis.estimands import timed_laps
+from analysis.frames import StudyFrames
+from analysis.outcomes import outcome_of
+from analysis.place import with_place
+from protocols.declared import Comparison
+from protocols.files.errors import InputError
+from protocols.order import in_words, laps_of
+from protocols.study import StudyProtocol
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Pool:
+    """People as arrays.
+
+    Attributes
+    ----------
+    conditions
+        The analysed conditions.
+    log_times, places
+        Shape (people, conditions): log lap times in log s, and the laps' places; NaN where missing.
+    differences
+        Shape (people,) for each analysis: condition minus reference in the outcome's unit (s for
+        lap times).
+    reference_means
+        For each analysis the mean of the reference, in the outcome's unit.
+    orders
+        Shape (people,): the order each drove, in words.
+    """
+
+    conditions: tuple[str, ...]
+    log_times: Array
+    places: Array
+    differences: Mapping[str, Array]
+    reference_means: Mapping[str, float]
+    orders: NDArray[np.str_]
+
+    @property
+    def size(self) -> int:
+        """Number of people."""
+        return len(self.log_times)
+
+    def columns(self, comparison: Comparison) -> tuple[int, int]:
+        """Return the columns of an analysis's condition and reference."""
+        at = {name: i for i, name in enumerate(self.conditions)}
+        return at[comparison.condition], at[comparison.reference]
+
+
+def pool_of(frames: StudyFrames, analyses: Sequence[Comparison]) -> Pool:
+    """Return the people of a study, as the declared analyses see them.
+
+    Parameters
+    ----------
+    frames
+        A study, recorded or simulated.
+    analyses
+        What is declared; where a comparison of lap times counts unfinished laps in another way than
+        leaving them out, its log times are taken so.
+
+    Raises
+    ------
+    InputError
+        When the study lacks a condition that an analysis compares.
+    """
+    for comparison in analyses:
+        for condition in (comparison.condition, comparison.reference):
+            if condition not in frames.conditions:
+                have = ", ".join(frames.conditions)
+                raise InputError(
+                    f"{frames.study.folder}: nobody drove '{condition}', which "
+                    f"'{comparison.name}' compares; allowed: a pool with {have}"
+                )
+    people = sorted(frames.participants["participant"])
+    counted = {a.unfinished for a in analyses if a.outcome == "lap_time_s"}
+    laps = with_place(timed_laps(frames, "limit" if "limit" in counted else "complete pairs"))
+    wide = {c.name: outcome_of(frames, c) for c in analyses}
+    return Pool(
+        conditions=frames.conditions,
+        log_times=np.log(_table(laps, "lap_time_s", people, frames.conditions)),
+        places=_table(laps, "place", people, frames.conditions),
+        differences={
+            c.name: (wide[c.name][c.condition] - wide[c.name][c.reference]).to_numpy()
+            for c in analyses
+        },
+        reference_means={c.name: float(wide[c.name][c.reference].mean()) for c in analyses},
+        orders=_orders(laps, people),
+    )
+
+
+def _table(laps: pd.DataFrame, column: str, people: list[str], conditions: Sequence[str]) -> Array:
+    wide = laps.pivot_table(index="participant", columns="condition", values=column)
+    table: Array = wide.reindex(index=people, columns=list(conditions)).to_numpy(dtype=np.float64)
+    return table
+
+
+def _orders(laps: pd.DataFrame, people: list[str]) -> NDArray[np.str_]:
+    ordered = laps.sort_values(["participant", "place"])
+    said = ordered.groupby("participant")["condition"].agg(" > ".join)
+    return np.asarray(said.reindex(people).fillna("").to_numpy(), dtype=np.str_)
+
+
+def wanted_orders(protocol: StudyProtocol, n: int, seed: int) -> list[str]:
+    """Return the orders that the first n participants of a study would be given, in words."""
+    return [in_words(laps_of(protocol, number, seed)) for number in range(1, n + 1)]

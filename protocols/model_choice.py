@@ -1,0 +1,68 @@
+"""Which models help in a study, and where they come from."""
+
+from collections.abc import Mapping
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from lad.hyperparameters import LADParameters
+from protocols.cohort import Options
+from protocols.files.file_model import FileModel, part_name
+from protocols.shipped_parts import LAD, MODELS
+
+
+class ModelChoice(FileModel):
+    """The assistant that learns; Table I of the paper is the default.
+
+    ``parameters`` are those of ``lad``, ``options`` those of any other model.
+    """
+
+    use: part_name(*MODELS) = LAD  # type: ignore[valid-type]
+    parameters: LADParameters = LADParameters()
+    options: Options = Field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _options_are_for_others(self) -> Self:
+        if self.use == LAD and self.options:
+            raise ValueError("options are for other models; lad takes parameters")
+        return self
+
+
+Sha256 = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
+
+
+class BorrowedModel(FileModel):
+    """A model that somebody else than the participant has taught.
+
+    Attributes
+    ----------
+    source
+        ``from`` in a file. ``pilot``: a synthetic person who is no participant drives the study's
+        training laps once. ``previous participant``: as the participant before left it (the first
+        one gets the pilot's); sessions then run one after the other. ``file``: a model file.
+        ``pooled``: taught all training laps of another study, one after the other.
+    path
+        Of the model file, or the study's folder. In a file's path ``{participant}`` stands for the
+        participant's id: ``runs/a/sessions/{participant}/model.npz`` borrows each participant's of
+        another study.
+    sha256
+        Of the file, or the digest of the study; filled in when the protocol is loaded, and part of
+        what the study is.
+    """
+
+    source: Annotated[
+        Literal["pilot", "previous participant", "file", "pooled"], Field(alias="from")
+    ]
+    path: str | None = None
+    sha256: Sha256 | None = None
+
+    @model_validator(mode="after")
+    def _a_path_where_one_is_needed(self) -> Self:
+        if (self.source in ("file", "pooled")) != (self.path is not None):
+            raise ValueError("a path is needed for from: file and from: pooled, and only for them")
+        return self
+
+
+def borrows_from_previous(models: Mapping[str, BorrowedModel]) -> bool:
+    """Tell whether a session needs the model that the participant before has left."""
+    return any(model.source == "previous participant" for model in models.values())

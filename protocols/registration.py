@@ -1,0 +1,259 @@
+"""A registration: a study's plan, frozen before its first session, with a digest over all of it."""
+
+import hashlib
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from protocols.files.document import parse
+from protocols.files.dump import to_yaml
+from protocols.files.errors import InputError
+from protocols.files.file_model import FileModel
+from protocols.files.validation import validate
+from protocols.model_choice import Sha256
+from protocols.record.atomic import write_whole
+from protocols.record.identity import identity, identity_differences
+from protocols.registration_text import registration_text
+from protocols.resolved import ResolvedStudy
+from protocols.versions import package_versions
+
+REGISTRATION = "registration"
+"""Folder of a study directory that holds the registration it follows."""
+
+HEAD_FILE, PLAN_FILE, PROTOCOL_FILE = "registration.yaml", "plan.json", "protocol.yaml"
+TEXT_FILE, AMENDMENTS = "registration.md", "amendments"
+
+
+class Head(FileModel):
+    """What ``registration.yaml`` says.
+
+    Attributes
+    ----------
+    digest
+        SHA-256 of ``plan.json``: of protocol, course, questionnaires, number of participants and
+        versions.
+    date
+        When the plan was frozen, UTC.
+    protocol_sha256
+        SHA-256 of ``protocol.yaml``, the plan in the form in which a person reads it.
+    amends
+        Digest of the plan that this one replaces; None for the first.
+    reason
+        Why it was amended; "" for the first.
+    """
+
+    schema_version: Annotated[Literal[1], Field(alias="schema")] = 1
+    digest: Sha256
+    date: str
+    protocol_sha256: Sha256
+    amends: Sha256 | None = None
+    reason: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Registration:
+    """A registration as it was read, its bytes verified.
+
+    Attributes
+    ----------
+    folder
+        Where it lies.
+    heads
+        The first plan's head, then each amendment's, in order.
+    plan
+        What holds now: the last plan's content.
+    """
+
+    folder: Path
+    heads: tuple[Head, ...]
+    plan: Mapping[str, Any]
+
+    @property
+    def digest(self) -> str:
+        """The first plan's digest: the allocation of orders and groups comes from it."""
+        return self.heads[0].digest
+
+    @property
+    def participants(self) -> int:
+        """With how many participants the study stops."""
+        return int(self.plan["participants"])
+
+
+def plan_of(study: ResolvedStudy) -> dict[str, Any]:
+    """Return everything that a registration freezes, as plain data."""
+    unregistered = study.protocol.model_copy(update={"registration": None})
+    return {
+        "study": identity(replace(study, protocol=unregistered), None),
+        "participants": study.protocol.cohort.participants,
+        "expected_dropout": study.protocol.cohort.expected_dropout,
+        "versions": package_versions(),
+    }
+
+
+def write_registration(study: ResolvedStudy, folder: Path, reason: str = "") -> tuple[str, ...]:
+    """Freeze a study's plan into a folder, or amend the plan that is there.
+
+    Parameters
+    ----------
+    study
+        The study as it is going to be run.
+    folder
+        Made when it does not exist. When it holds a registration, the plan becomes its next
+        amendment.
+    reason
+        Why the plan is amended.
+
+    Returns
+    -------
+    tuple of str
+        What is still to be written by hand in ``registration.md``.
+
+    Raises
+    ------
+    InputError
+        When the folder holds something else, a changed registration, the same plan, or a plan
+        would be amended without a reason.
+    """
+    earlier = _earlier(folder)
+    content = _canonical(plan_of(study))
+    digest = hashlib.sha256(content).hexdigest()
+    if earlier and not reason:
+        raise InputError(
+            f"{folder}: holds a registration; allowed: --amend with a reason, or another folder"
+        )
+    if not earlier and reason:
+        raise InputError(f"{folder}: holds no registration to amend; allowed: without --amend")
+    if earlier and earlier.heads[-1].digest == digest:
+        raise InputError(f"{folder}: this is the plan that is registered; nothing to amend")
+    target = folder / AMENDMENTS / f"{len(earlier.heads):03d}" if earlier else folder
+    protocol = to_yaml(study.protocol).encode()
+    head = Head(
+        digest=digest,
+        date=datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        protocol_sha256=hashlib.sha256(protocol).hexdigest(),
+        amends=earlier.heads[-1].digest if earlier else None,
+        reason=reason,
+    )
+    text, gaps = registration_text(study, digest)
+    target.mkdir(parents=True, exist_ok=True)
+    write_whole(target / PLAN_FILE, content)
+    write_whole(target / PROTOCOL_FILE, protocol)
+    write_whole(target / TEXT_FILE, text.encode())
+    # Last: a folder is a registration when its head is there.
+    write_whole(target / HEAD_FILE, to_yaml(head).encode())
+    return gaps
+
+
+def _earlier(folder: Path) -> Registration | None:
+    if not folder.exists() or not any(folder.iterdir()):
+        return None
+    if not (folder / HEAD_FILE).is_file():
+        if {path.name for path in folder.iterdir()} <= {PLAN_FILE, PROTOCOL_FILE, TEXT_FILE}:
+            return None  # a registration that was stopped while it was being written
+        raise InputError(f"{folder}: holds something else; allowed: an empty or a new folder")
+    return read_registration(folder)
+
+
+def read_registration(folder: Path) -> Registration:
+    """Return a registration, every file verified.
+
+    Raises
+    ------
+    InputError
+        When there is none, or a byte of a plan has changed since it was frozen.
+    """
+    amended = sorted((folder / AMENDMENTS).glob("[0-9][0-9][0-9]"))
+    heads: list[Head] = []
+    plan: dict[str, Any] = {}
+    for part in (folder, *amended):
+        head = _head(part)
+        content = _verified(part / PLAN_FILE, head.digest)
+        _verified(part / PROTOCOL_FILE, head.protocol_sha256)
+        if heads and head.amends != heads[-1].digest:
+            raise InputError(f"{part}: does not amend the plan before it; the chain is broken")
+        heads.append(head)
+        plan = json.loads(content)
+    return Registration(folder, tuple(heads), plan)
+
+
+def _head(folder: Path) -> Head:
+    path = folder / HEAD_FILE
+    try:
+        return validate(parse(path.read_bytes(), str(path)), Head)
+    except OSError as error:
+        raise InputError(f"{path}: no registration: {error.strerror}") from None
+
+
+def _verified(path: Path, digest: str) -> bytes:
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    if hashlib.sha256(content).hexdigest() != digest:
+        raise InputError(f"{path}: changed since it was registered (its digest differs)")
+    return content
+
+
+def _canonical(plan: Mapping[str, Any]) -> bytes:
+    return (json.dumps(plan, sort_keys=True, indent=1, ensure_ascii=False) + "\n").encode()
+
+
+def registered(study: ResolvedStudy, registration: Registration) -> ResolvedStudy:
+    """Return a study as one that follows a registration.
+
+    Raises
+    ------
+    InputError
+        When the registration is of another plan: in one line, the first difference.
+    """
+    faults = tuple(plan_differences(study, registration))
+    if faults:
+        more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
+        raise InputError(
+            f"{registration.folder}: registers another plan: {faults[0]}{more}; allowed: the plan "
+            "as registered, or an amendment with its reason (lad-study preregister --amend)"
+        )
+    protocol = study.protocol.model_copy(update={"registration": registration.digest})
+    return replace(study, protocol=protocol)
+
+
+def plan_differences(study: ResolvedStudy, registration: Registration) -> Iterator[str]:
+    """Yield in words how a study differs from the plan that holds; fewer participants do not."""
+    mine = plan_of(study)
+    yield from identity_differences(registration.plan["study"], mine["study"])
+    if mine["participants"] > registration.participants:
+        yield (
+            f"participants: the study stops at {registration.participants}, "
+            f"{mine['participants']} wanted"
+        )
+
+
+def copy_registration(registration: Registration, study_folder: Path) -> None:
+    """Put a registration into the directory of the study that follows it, byte for byte."""
+    for source in sorted(registration.folder.rglob("*")):
+        if source.is_file():
+            target = study_folder / REGISTRATION / source.relative_to(registration.folder)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            write_whole(target, source.read_bytes())
+
+
+def registration_faults(folder: Path, study: ResolvedStudy) -> Iterator[str]:
+    """Yield what is wrong with the registration that a study directory holds, if it follows one."""
+    digest = study.protocol.registration
+    if digest is None:
+        return
+    try:
+        registration = read_registration(folder / REGISTRATION)
+    except InputError as error:
+        yield str(error)
+        return
+    if registration.digest != digest:
+        yield f"{folder / REGISTRATION}: is not the registration that the study follows"
+        return
+    for difference in plan_differences(study, registration):
+        yield f"{folder / REGISTRATION}: the study differs from the plan: {difference}"
