@@ -34,6 +34,10 @@ MANY = 600
 """From this many laps on, starting further processes costs less than it saves."""
 
 
+_FIRST_COLUMNS = tuple(column.name for column in STEP_COLUMNS if column.since == 1)
+"""What came later is missing in older records and in simulated time, and no measure needs it."""
+
+
 @dataclass(frozen=True, slots=True)
 class LapRecords:
     """What follows from the steps of the analysed laps.
@@ -85,7 +89,7 @@ def read_laps(
         Number of processes, used from ``MANY`` laps on; see ``analysis.processes.in_order``.
     """
     found: Counter[str] = Counter()
-    unrecorded = [column.name for column in STEP_COLUMNS]
+    unrecorded = list(_FIRST_COLUMNS)
     laps: list[_Lap] = []
     for piece in _pieces(frames, progress or (lambda _: None), jobs):
         laps += piece.laps
@@ -166,7 +170,7 @@ def _pieces(frames: StudyFrames, tell: Callable[[str], None], jobs: int) -> Iter
 
 
 def _read(study: Study, places: Sequence[_Where]) -> _Piece:
-    unrecorded = [column.name for column in STEP_COLUMNS]
+    unrecorded = list(_FIRST_COLUMNS)
     laps = []
     for participant, lap, condition, completed in places:
         where = {"participant": participant, "lap": lap, "condition": condition}
