@@ -67,7 +67,8 @@ def path_through(floor: Floor, points: tuple[Point, ...], clearance: float) -> (
         leg = _leg(grid, graph, points[i - 1], points[i])
         if leg is None:
             return i
-        legs.append(leg if not legs else leg[1:])
+        straight = _straightened(leg, grid, clearance)
+        legs.append(straight if not legs else straight[1:])
     return _smoothed(np.concatenate(legs), grid)
 
 
@@ -116,6 +117,34 @@ def _leg(
     path = (cells[:, ::-1] + 0.5) * grid.cell
     path[0], path[-1] = begin, end
     return path
+
+
+def _straightened(leg: NDArray[np.float64], grid: _Grid, clearance: float) -> NDArray[np.float64]:
+    """Return a leg without the detours of a path that knows eight directions only.
+
+    A stretch becomes a straight line where that comes no nearer to walls than the stretch does, or
+    keeps the clearance.
+    """
+    places = [grid.index(x, y) for x, y in leg.tolist()]
+    room = np.array([grid.distance[place] for place in places])
+    kept = [0]
+    while kept[-1] < len(leg) - 1:
+        i = kept[-1]
+        least = np.minimum(np.minimum.accumulate(room[i:]), clearance) - grid.cell / 2
+        ahead = (j for j in range(len(leg) - 1, i + 1, -1)
+                 if _room(grid, leg[i], leg[j]) >= least[j - i])  # fmt: skip
+        kept.append(next(ahead, i + 1))
+    return leg[kept]
+
+
+def _room(grid: _Grid, a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
+    """Return the least distance from walls on a straight line, m."""
+    count = max(2, math.ceil(float(np.hypot(*(b - a))) / grid.cell) + 1)
+    line = a + np.linspace(0, 1, count)[:, None] * (b - a)
+    cells = (line // grid.cell).astype(np.int64)
+    rows, columns = grid.passable.shape
+    inside = (np.clip(cells[:, 1], 0, rows - 1), np.clip(cells[:, 0], 0, columns - 1))
+    return float(grid.distance[inside].min())
 
 
 def _smoothed(path: NDArray[np.float64], grid: _Grid) -> NDArray[np.float64]:
