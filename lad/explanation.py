@@ -21,9 +21,11 @@ class Influence:
     inputs
         Shape (tau, d): what was seen then, newest first, in the inputs' units.
     likeness
-        k(b, x) / k(x, x), from 0 (nothing in common) to 1 (the same window).
+        kappa(b, x), from 0 (nothing in common) to 1 (the same window): k(b, x) / k(x, x) of a
+        kernel without a constant.
     contribution
-        Shape (p,): k(b, x) alpha; over all basis vectors they sum to the mean.
+        Shape (p,): k(b, x) alpha; over all basis vectors, and the prior mean where there is one,
+        they sum to the mean.
     """
 
     time: int
@@ -48,7 +50,7 @@ def explain(process: StorkGP, most: int | None = 5) -> list[Influence]:
     list of Influence
         By length of the contribution, longest first.
     """
-    k, state = process.covariances(), process.state
+    k, state, hyper = process.covariances(), process.state, process.hyperparameters
     contributions = (k * state.alpha[:, : state.n]).T
     order = np.argsort(-np.linalg.norm(contributions, axis=1), kind="stable")
     return [
@@ -56,7 +58,7 @@ def explain(process: StorkGP, most: int | None = 5) -> list[Influence]:
             time=int(state.times[slot]),
             lap=int(state.laps[slot]),
             inputs=state.basis[:, :, slot] * process.window.lengthscales,
-            likeness=float(k[slot] / process.hyperparameters.signal_variance),
+            likeness=float((k[slot] - hyper.constant_variance) / hyper.signal_variance),
             contribution=contributions[slot].copy(),
         )
         for slot in order[:most]

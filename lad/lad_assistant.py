@@ -1,7 +1,7 @@
 """The learned assistant: when to help and how, section III of Soh & Demiris."""
 
 from pathlib import Path
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,6 @@ from lad.model_file import pack, read, rebuilding, unpack, write_whole
 from lad.snapshot import Arrays, restore_state, restore_window, state_arrays, window_arrays
 from lad.stork_gp import StorkGP
 
-KIND = "lad-assistant"
 HELPING, NOT_HELPING = 1.0, -1.0
 
 
@@ -31,6 +30,13 @@ class LADAssistant:
     parameters
         Table I by default.
 
+    Attributes
+    ----------
+    kind
+        What a saved model of this class says that it is.
+    default_constant_variance
+        sigma_c^2 of the regressor, unless the parameters say another.
+
     Examples
     --------
     >>> import numpy as np
@@ -44,8 +50,14 @@ class LADAssistant:
     True
     """
 
+    kind: ClassVar[str] = "lad-assistant"
+    default_constant_variance: ClassVar[float] = 0.0
+
     def __init__(self, parameters: LADParameters | None = None) -> None:
         self.parameters = parameters or LADParameters()
+        if self.parameters.constant_variance is None and self.default_constant_variance:
+            update = {"constant_variance": self.default_constant_variance}
+            self.parameters = self.parameters.model_copy(update=update)
         self.when = StorkGP(self.parameters.classifier, "probit")
         self.how = StorkGP(self.parameters.regressor, n_outputs=2, window=self.when.window)
 
@@ -80,7 +92,7 @@ class LADAssistant:
             self.parameters.noise_when,
             self.parameters.probability,
         )
-        mean = Command(float(how.mean[0]), float(how.mean[1]))
+        mean = self._said(Command(float(how.mean[0]), float(how.mean[1])))
         helping = p_help >= self.parameters.threshold and self.how.n_basis > 0
         return Assistance(
             helping=helping,
@@ -111,8 +123,16 @@ class LADAssistant:
         if helping:
             if command is None:
                 raise InvalidTargetError("command: given None while helping; allowed is a Command")
-            self.how.learn(command)
+            self.how.learn(self._learnt(command))
         self.when.learn(HELPING if helping else NOT_HELPING)
+
+    def _learnt(self, command: Command) -> Command:
+        """Return what the regressor learns of a demonstrator's command: the command."""
+        return command
+
+    def _said(self, mean: Command) -> Command:
+        """Return the command that follows from the regressor's mean: the mean."""
+        return mean
 
     def to_bytes(self) -> bytes:
         """Save as the bytes of one portable npz; the same bytes for the same model."""
@@ -121,11 +141,11 @@ class LADAssistant:
             for key, array in state_arrays(process.state).items():
                 arrays[f"{name}/{key}"] = array
         header = {
-            "parameters": self.parameters.model_dump(),
+            "parameters": self.parameters.to_header(),
             "window": window,
             "health": [self.when.health.to_header(), self.how.health.to_header()],
         }
-        return pack(KIND, header, arrays)
+        return pack(self.kind, header, arrays)
 
     @classmethod
     def from_bytes(cls, data: bytes, source: str = "model") -> Self:
@@ -136,7 +156,7 @@ class LADAssistant:
         ModelFileError
             When the bytes are not a saved assistant; ``source`` names them.
         """
-        header, arrays = unpack(data, KIND, source)
+        header, arrays = unpack(data, cls.kind, source)
         with rebuilding(source):
             model = cls(LADParameters.from_header(header["parameters"]))
             restore_window(model.when.window, header["window"], arrays)

@@ -89,13 +89,8 @@ def unpack(
     ModelFileError
         When the bytes are truncated, foreign, of another kind or of a later format.
     """
-    try:
-        with np.load(io.BytesIO(data), allow_pickle=False) as archive:
-            arrays = {name: archive[name] for name in archive.files}
-        header = json.loads(str(arrays.pop("header")))
-        found = (header["format"], header["format_version"], header["kind"])
-    except Exception as error:  # whatever zip, numpy and JSON may raise on foreign bytes
-        raise ModelFileError(f"{source}: truncated, or not a saved model at all") from error
+    header, arrays = _opened(data, source)
+    found = (header["format"], header["format_version"], header["kind"])
     if found[0] != FORMAT:
         raise ModelFileError(f"{source}: given format {found[0]!r}; allowed is {FORMAT!r}")
     if found[1] != FORMAT_VERSION:
@@ -104,6 +99,28 @@ def unpack(
         )
     if found[2] != kind:
         raise ModelFileError(f"{source}: holds a {found[2]!r}; wanted is a {kind!r}")
+    return header, arrays
+
+
+def kind_of(data: bytes, source: str = "model") -> str:
+    """Return what a saved model says that it holds, whatever its format version.
+
+    Raises
+    ------
+    ModelFileError
+        When the bytes are truncated or foreign.
+    """
+    return str(_opened(data, source)[0]["kind"])
+
+
+def _opened(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    try:
+        with np.load(io.BytesIO(data), allow_pickle=False) as archive:
+            arrays = {name: archive[name] for name in archive.files}
+        header = json.loads(str(arrays.pop("header")))
+        _ = header["format"], header["format_version"], header["kind"]
+    except Exception as error:  # whatever zip, numpy and JSON may raise on foreign bytes
+        raise ModelFileError(f"{source}: truncated, or not a saved model at all") from error
     return header, arrays
 
 

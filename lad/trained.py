@@ -1,10 +1,17 @@
 """A model that somebody else's laps have taught, for a protocol that starts with one."""
 
+from lad.correction import CorrectionAssistant
 from lad.lad_assistant import LADAssistant
+from lad.model_file import kind_of, read
+
+KINDS: dict[str, type[LADAssistant]] = {
+    cls.kind: cls for cls in (LADAssistant, CorrectionAssistant)
+}
+"""Shipped assistants by what their files say that they are."""
 
 
 def load(path: str) -> LADAssistant:
-    """Return the shipped model as it was saved.
+    """Return a shipped model as it was saved, of whichever kind.
 
     A protocol names it by its dotted path, the file by participant:
     ``{use: "lad.trained:load", options: {path: "{folder}/sessions/{participant}/model.npz"}}``.
@@ -19,4 +26,5 @@ def load(path: str) -> LADAssistant:
     ModelFileError
         When it cannot be read or is none; names the path.
     """
-    return LADAssistant.load(path)
+    data = read(path)
+    return KINDS.get(kind_of(data, path), LADAssistant).from_bytes(data, path)

@@ -16,7 +16,11 @@ IMPAIRMENTS: Mapping[str, str] = {
 }
 DEMONSTRATORS: Mapping[str, str] = {"attentive": "participants.attentive:attentive_demonstrator"}
 RESPONDENTS: Mapping[str, str] = {"ordinal": "participants.respondent:ordinal_respondent"}
-MODELS: Mapping[str, str] = {"lad": "lad.lad_assistant:LADAssistant"}
+MODELS: Mapping[str, str] = {
+    "lad": "lad.lad_assistant:LADAssistant",
+    "lad-correction": "lad.correction:CorrectionAssistant",
+}
+"""Made from the protocol's parameters of the model."""
 
 PORTABLE_OPTIONS: Mapping[str, str] = {"scripted": "participants.scripted:portable_options"}
 """For drivers whose options name a file: a function of options and folder that reads it."""

@@ -19,7 +19,9 @@ from protocols.start_noise import StartNoise
 class ModelChoice(FileModel):
     """The assistant that learns; Table I of the paper is the default.
 
-    ``parameters`` are those of the shipped model, ``options`` those of somebody else's.
+    ``lad`` learns the demonstrator's command, as the paper's model does, ``lad-correction`` how it
+    differs from the user's. ``parameters`` are those of a shipped model, ``options`` those of
+    somebody else's.
     """
 
     use: shipped_or_factory(*MODELS) = "lad"  # type: ignore[valid-type]
@@ -29,7 +31,7 @@ class ModelChoice(FileModel):
     @model_validator(mode="after")
     def _options_are_for_others(self) -> Self:
         if self.use in MODELS and self.options:
-            raise ValueError("options are for a model of your own; lad takes parameters")
+            raise ValueError(f"options are for a model of your own; {self.use} takes parameters")
         return self
 
 

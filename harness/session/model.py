@@ -31,7 +31,8 @@ def make_model(choice: ModelChoice, words: Mapping[str, str] | None = None) -> A
         When it cannot be imported, does not take the options, or is no assistant.
     """
     if choice.use in MODELS:
-        return LADAssistant(choice.parameters)
+        shipped: Assistant = load_factory("model", MODELS, choice.use)(choice.parameters)
+        return shipped
     factory = load_factory("model", MODELS, choice.use)
     try:
         made = factory(**_filled_in(choice.options, words or {}))

@@ -5,6 +5,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from lad.hyperparameters import LADParameters
 from protocols.files.document import spoken
 from protocols.files.fault import Location
 from protocols.resolved import ResolvedStudy
@@ -15,6 +16,7 @@ _ABSENT = object()
 _LATER: Mapping[str, Mapping[str, Any]] = {
     "protocol": {"hold_s": 0.3, "consent": None, "demographics": [], "debrief": None},
     "lap": {"break_s": 0.0},
+    "parameters": LADParameters.later_defaults(),
     "item": {"answer": "point", "lowest": None, "highest": None},
 }
 """Fields that came after the first version, with their defaults. A study that does not use them
@@ -55,6 +57,7 @@ def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
     protocol = study.protocol.model_dump(mode="json", by_alias=True)
     del protocol["cohort"]["participants"]
     _leave_out_defaults(protocol, "protocol")
+    _leave_out_defaults(protocol["model"]["parameters"], "parameters")
     for lap in protocol["laps"]:
         _leave_out_defaults(lap, "lap")
     instruments = [i.model_dump(mode="json", by_alias=True) for i in study.instruments]

@@ -12,8 +12,9 @@ from analysis.reproduction.full import full_sections
 from analysis.reproduction.generalisation.evidence import Elsewhere
 from analysis.reproduction.generalisation.tables import course_table, section_table
 from analysis.reproduction.robustness import cost, evidence
-from analysis.reproduction.robustness.evidence import Tried, maker
+from analysis.reproduction.robustness.evidence import Tried
 from analysis.reproduction.robustness.table import variant_table
+from analysis.reproduction.teaching import maker
 from analysis.reproduction.write import contents_of
 from harness.reproduction.full import full_experiments
 from lad.lad_assistant import LADAssistant
