@@ -44,6 +44,7 @@ Probability = Annotated[
 ]
 Novelty = Annotated[float, Field(gt=0, lt=1, allow_inf_nan=False), BeforeValidator(_number)]
 Capacity = Annotated[int, Field(ge=1, le=20_000), BeforeValidator(_number)]
+Laps = Annotated[int, Field(ge=1, le=1_000), BeforeValidator(_number)]
 RecursionDepth = Annotated[int, Field(ge=1, le=1_000), BeforeValidator(_number)]
 Threshold = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False), BeforeValidator(_number)]
 
@@ -196,6 +197,14 @@ class LADParameters(_Checked):
     constant_variance
         sigma_c^2 of the regressor; None for the model's own: 0 for ``lad``, 0.1 for
         ``lad-correction``.
+    tune
+        ``evidence``: at the start of a lap, what was taught since the last one chooses the
+        regressor's hyperparameters by exact marginal likelihood, and the classifier's signal
+        variance (``lad.tuning``); the values here are where the search begins and where its prior
+        is centred. ``none`` keeps them, as the paper does.
+    memory_laps
+        How many of the last taught laps the model knows; None for all. What is older is forgotten
+        at the start of a lap.
 
     Raises
     ------
@@ -225,8 +234,15 @@ class LADParameters(_Checked):
     probability: Literal["probit", "paper"] = "probit"
     prior_help: Probability = 0.5
     constant_variance: NoVariance | None = None
+    tune: Literal["none", "evidence"] = "none"
+    memory_laps: Laps | None = None
 
-    came_later: ClassVar[tuple[str, ...]] = ("prior_help", "constant_variance")
+    came_later: ClassVar[tuple[str, ...]] = (
+        "prior_help",
+        "constant_variance",
+        "tune",
+        "memory_laps",
+    )
 
     def _process(self, noise_variance: float, **further: float) -> GPHyperparameters:
         return GPHyperparameters(

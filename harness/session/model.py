@@ -58,6 +58,24 @@ def saved(model: Assistant) -> bytes | None:
     return to_bytes() if callable(to_bytes) else None
 
 
+def tuned_fields(model: Assistant) -> dict[str, Any]:
+    """Return the lap row's fields about hyperparameters chosen by evidence; empty without any."""
+    tuned = model.tuned if isinstance(model, LADAssistant) else None
+    if tuned is None:
+        return {}
+    user, _, velocity, _, laser = tuned.how.lengthscales[:5]
+    return {
+        "tuned_steps": tuned.steps,
+        "tuned_signal_variance_when": tuned.when.signal_variance,
+        "tuned_signal_variance_how": tuned.how.signal_variance,
+        "tuned_constant_variance_how": tuned.how.constant_variance,
+        "tuned_noise_how": tuned.how.noise_variance,
+        "tuned_lengthscale_user_how": user,
+        "tuned_lengthscale_velocity_how": velocity,
+        "tuned_lengthscale_laser_how": laser,
+    }
+
+
 def basis_vectors(model: Assistant) -> dict[str, Any]:
     """Return the lap row's fields about the model's size; empty for a model without any."""
     if not isinstance(model, LADAssistant):

@@ -9,7 +9,7 @@ from harness.session.journal import Journal
 from harness.session.lap import Ending, Lap, Rules
 from harness.session.lap_log import LapLog, summary
 from harness.session.limitation import right_turn_limit, unlimited
-from harness.session.model import basis_vectors, saved
+from harness.session.model import basis_vectors, saved, tuned_fields
 from harness.session.parts import SessionParts, question
 from harness.session.seeds import fingerprint, generator
 from harness.session.stages import Stage, StageKind, stages_of
@@ -174,6 +174,7 @@ class Session:
             **summary(steps, ending, self._world.period),
             **log.pauses(),
             **basis_vectors(parts.model),
+            **tuned_fields(parts.model),
         )
         self._laps.append(RecordedLap(row, steps))
         return ending

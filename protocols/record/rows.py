@@ -101,6 +101,14 @@ class LapRow:
     pauses: int | None = None
     paused_s: float | None = None
     last_segments: tuple[float, ...] | None = None
+    tuned_steps: int | None = None
+    tuned_signal_variance_when: float | None = None
+    tuned_signal_variance_how: float | None = None
+    tuned_constant_variance_how: float | None = None
+    tuned_noise_how: float | None = None
+    tuned_lengthscale_user_how: float | None = None
+    tuned_lengthscale_velocity_how: float | None = None
+    tuned_lengthscale_laser_how: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

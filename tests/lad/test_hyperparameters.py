@@ -27,6 +27,8 @@ def test_defaults_are_table_one():
         "probability": "probit",
         "prior_help": 0.5,
         "constant_variance": None,
+        "tune": "none",
+        "memory_laps": None,
     }
 
 
