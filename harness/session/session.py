@@ -8,7 +8,7 @@ from harness.session.experience import experience_of
 from harness.session.journal import Journal
 from harness.session.lap import Ending, Lap, Rules
 from harness.session.lap_log import LapLog, summary
-from harness.session.limitation import right_turn_limit, unlimited
+from harness.session.limitation import limitation_of
 from harness.session.model import basis_vectors, saved, tuned_fields
 from harness.session.parts import SessionParts, question
 from harness.session.seeds import fingerprint, generator
@@ -159,7 +159,7 @@ class Session:
         parts.model.start_lap()
         log = LapLog(self._centreline, demonstrated=condition.assistant == "demonstrator")
         gates = GateCounter(self._run.study.course)
-        rules = rules_of(condition, planned.time_limit_s, protocol.hold_s)
+        rules = rules_of(condition, planned.time_limit_s, protocol.hold_s, self._world.period)
         ending = Lap(self._world, parts, rules, gates, self._journal).drive(log, self._clock)
         steps = log.table()
         row = LapRow(
@@ -226,11 +226,10 @@ class Session:
         )
 
 
-def rules_of(condition: Condition, time_limit_s: float, hold_s: float) -> Rules:
-    """Return what holds in a lap of a condition."""
-    limit = condition.limitation
+def rules_of(condition: Condition, time_limit_s: float, hold_s: float, period_s: float) -> Rules:
+    """Return what holds in one lap of a condition."""
     return Rules(
-        limitation=unlimited if limit is None else right_turn_limit(limit.right_turn_rad_s),
+        limitation=limitation_of(condition.limitation, period_s),
         assistant=condition.assistant,
         arbitration=ARBITRATIONS[condition.arbitration],
         safeguarded=condition.safeguard,

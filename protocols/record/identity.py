@@ -16,6 +16,7 @@ _ABSENT = object()
 _LATER: Mapping[str, Mapping[str, Any]] = {
     "protocol": {"hold_s": 0.3, "consent": None, "demographics": [], "debrief": None},
     "lap": {"break_s": 0.0},
+    "limitation": {"left_turn_rad_s": None, "speed_m_s": None, "lag_s": 0.0, "dead_zone": 0.0},
     "parameters": LADParameters.later_defaults(),
     "item": {"answer": "point", "lowest": None, "highest": None},
 }
@@ -58,6 +59,9 @@ def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
     del protocol["cohort"]["participants"]
     _leave_out_defaults(protocol, "protocol")
     _leave_out_defaults(protocol["model"]["parameters"], "parameters")
+    for condition in protocol["conditions"].values():
+        if condition["limitation"] is not None:
+            _leave_out_defaults(condition["limitation"], "limitation")
     for lap in protocol["laps"]:
         _leave_out_defaults(lap, "lap")
     instruments = [i.model_dump(mode="json", by_alias=True) for i in study.instruments]
