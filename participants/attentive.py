@@ -1,11 +1,13 @@
 """A demonstrator who watches the sharp right turns, and helps nowhere else.
 
 The lead author's part in the study (section IV.B): control is taken over during the right turns
-at R1 and R2. On any course these are the sections labelled ``sharp_right``.
+at R1 and R2. On any course these are the sections labelled ``sharp_right``; asked to watch left
+turns, it watches the sections labelled ``left`` that are as sharp.
 """
 
 import math
-from typing import Annotated
+from collections.abc import Iterator
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +40,9 @@ ALIGNED = math.radians(12)
 LEG = 1.0
 """The next leg is looked at this far past the corner, m."""
 
+SHARP = math.radians(60)
+"""A section labelled ``left`` that turns by more than this is a sharp one, rad."""
+
 
 class AttentiveOptions(Options):
     """What a protocol may say about an attentive demonstrator.
@@ -51,11 +56,14 @@ class AttentiveOptions(Options):
     pace
         How fast it drives through a corner, as a share of the speed at which the chair, turning
         as fast as it can, could just follow it; by default as ``bench/calibrate_course.py`` found.
+    turns
+        Which sharp turns it watches: those to the ``right`` (the paper), ``left`` or ``both``.
     """
 
     reaction_s: Annotated[float, Field(ge=0.0, le=3.0)] = 0.4
     reaction_spread: Annotated[float, Field(ge=0.0, le=1.0)] = 0.25
     pace: Annotated[float, Field(ge=0.2, le=1.0)] = 0.92
+    turns: Literal["right", "left", "both"] = "right"
 
 
 class AttentiveDemonstrator:
@@ -79,7 +87,7 @@ class AttentiveDemonstrator:
         self._raster = known_raster(course)
         self._options = options
         self._rng = rng
-        self._corners = tuple(s for s in self._line.sections if s.kind == "sharp_right")
+        self._corners = tuple(_watched(self._line, options.turns))
         self.start_lap()
 
     def start_lap(self) -> None:
@@ -121,24 +129,48 @@ class AttentiveDemonstrator:
         to_turn, off = self._through(corner, sight)
         if self._acts_at is not None:
             return to_turn > ALIGNED or off > 2 * ALIGNED
-        begun = self._reached(corner) or min(stick, sight.velocity.w) < TURNING
+        side = _sign(corner)
+        begun = self._reached(corner) or min(side * stick, side * sight.velocity.w) < TURNING
         return begun and to_turn > STILL_TO_TURN
 
     def _reached(self, corner: Stretch) -> bool:
         return self._arc is not None and self._arc >= corner.start
 
     def _through(self, corner: Stretch, sight: Sight) -> tuple[float, float]:
-        """Return how far right the chair must turn to point along the next leg, and towards it."""
+        """Return how far the chair must turn to point along the next leg, and towards it.
+
+        To the corner's own side, positive.
+        """
+        side = _sign(corner)
         leg = self._line.point(corner.end + LEG)
         towards = math.atan2(leg.y - sight.pose.y, leg.x - sight.pose.x)
         return (
-            math.remainder(sight.pose.heading - leg.heading, math.tau),
-            math.remainder(sight.pose.heading - towards, math.tau),
+            side * math.remainder(sight.pose.heading - leg.heading, math.tau),
+            side * math.remainder(sight.pose.heading - towards, math.tau),
         )
 
     def _reaction(self) -> float:
         noise = self._options.reaction_spread * float(self._lap_rng.normal())
         return self._options.reaction_s * math.exp(noise)
+
+
+def _watched(line: Centreline, turns: str) -> Iterator[Stretch]:
+    for section in line.sections:
+        if section.kind == "sharp_right" and turns != "left":
+            yield section
+        if section.kind == "left" and turns != "right" and _turn(line, section) > SHARP:
+            yield section
+
+
+def _turn(line: Centreline, section: Stretch) -> float:
+    """Return how far left the way turns in a section, rad."""
+    turned = line.point(section.end).heading - line.point(section.start).heading
+    return math.remainder(turned, math.tau)
+
+
+def _sign(corner: Stretch) -> float:
+    """Return 1 for a right turn, -1 for a left one: a left turn is a right turn in a mirror."""
+    return -1.0 if corner.kind == "left" else 1.0
 
 
 def attentive_demonstrator(setup: DemonstratorSetup) -> AttentiveDemonstrator:

@@ -175,7 +175,10 @@ def test_answers_from_elsewhere_are_not_refused(folder: Path):
 @pytest.mark.parametrize(
     ("origin", "said"),
     [
-        ("simulated", "has no row, but there are 3 sessions; the same `lad-study run` again makes it anew"),
+        (
+            "simulated",
+            "has no row, but there are 3 sessions; the same `lad-study run` again makes it anew",
+        ),
         ("elsewhere", "has no row; a report needs at least one participant and one lap"),
     ],
 )
