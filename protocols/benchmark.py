@@ -10,7 +10,7 @@ from protocols.laps import PlannedLap
 from protocols.start_noise import StartNoise
 from protocols.study import ModelChoice, StudyProtocol
 
-ALONE, DEMONSTRATION = "alone", "demonstration"
+ALONE, DEMONSTRATION, TEST = "alone", "demonstration", "test"
 """Conditions of a benchmark's studies, besides those of ``helped``."""
 
 DEMONSTRATIONS = (1, 2, 3, 5)
@@ -80,7 +80,7 @@ def benchmark_protocol(
     """Return the study of one assistant in one setting.
 
     Every replicate drives alone, then demonstrations and helped laps alternate as
-    ``demonstrations`` says. The study is called after the setting, not after the assistant: with
+    ``demonstrations`` says; the last lap is a demonstration that is not learnt. The study is called after the setting, not after the assistant: with
     the same seed all assistants meet the same people, noise and demonstrations.
 
     Parameters
@@ -98,7 +98,7 @@ def benchmark_protocol(
     --------
     >>> protocol = benchmark_protocol(SETTINGS[0], ModelChoice(), 2, (1, 3))
     >>> [lap.condition for lap in protocol.laps]
-    ['alone', 'demonstration', 'after 1', 'demonstration', 'demonstration', 'after 3']
+    ['alone', 'demonstration', 'after 1', 'demonstration', 'demonstration', 'after 3', 'test']
     """
     limitation = LimitationSettings.model_validate(dict(setting.limitation))
     taught_here = setting.taught_on is None
@@ -107,6 +107,7 @@ def benchmark_protocol(
         DEMONSTRATION: Condition(
             limitation=limitation, assistant="demonstrator", training=taught_here
         ),
+        TEST: Condition(limitation=limitation, assistant="demonstrator"),
         **{helped(n): Condition(limitation=limitation, assistant="model") for n in demonstrations},
     }
     order = _order(demonstrations) if taught_here else [ALONE, DEMONSTRATION, *_helped(conditions)]
@@ -134,7 +135,7 @@ def _order(demonstrations: tuple[int, ...]) -> list[str]:
     for n in demonstrations:
         order += [DEMONSTRATION] * (n - shown) + [helped(n)]
         shown = n
-    return order
+    return [*order, TEST]
 
 
 def _helped(conditions: Mapping[str, Condition]) -> Iterator[str]:
