@@ -13,6 +13,9 @@ DRIVERS: Mapping[str, str] = {
 IMPAIRMENTS: Mapping[str, str] = {
     "tremor": "participants.impairments.tremor:tremor",
     "weakness": "participants.impairments.weakness:weakness",
+    "spasticity": "participants.impairments.spasticity:spasticity",
+    "bias": "participants.impairments.bias:bias",
+    "delay": "participants.impairments.delay:delay",
 }
 DEMONSTRATORS: Mapping[str, str] = {"attentive": "participants.attentive:attentive_demonstrator"}
 RESPONDENTS: Mapping[str, str] = {"ordinal": "participants.respondent:ordinal_respondent"}
