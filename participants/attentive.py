@@ -14,11 +14,13 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from lad.assistant import NO_ASSISTANCE, Assistance
+from lad.command import Command
 from participants.corner_steering import CornerSteering
 from participants.options import Options, read_options
 from participants.planning.surroundings import known_raster
 from participants.setup import DemonstratorSetup
 from participants.sight import Sight
+from participants.variability import Drawn, Variability
 from protocols.course.centreline import Centreline, Stretch
 from protocols.course.schema import Course
 
@@ -37,6 +39,8 @@ STILL_TO_TURN = math.radians(40)
 ALIGNED = math.radians(12)
 """It ends when the chair points along the next leg within this, rad."""
 
+SLOWEST_PACE = 0.2
+
 LEG = 1.0
 """The next leg is looked at this far past the corner, m."""
 
@@ -47,6 +51,12 @@ SHARP = math.radians(60)
 class AttentiveOptions(Options):
     """What a protocol may say about an attentive demonstrator.
 
+    Human variability is off unless asked for, and then changes nothing else: without it not a draw
+    is made. Submovements of 2 to 3 a second: Miall, Weir & Stein (1993), J. Motor Behavior 25;
+    Loram et al. (2011), J. Physiology 589. Reaction .7 s expected, 1.25 s unexpected: Green (2000),
+    Transportation Human Factors 2. Onset scatter, the signal's lag, touches, release and pace:
+    assumptions.
+
     Attributes
     ----------
     reaction_s
@@ -56,6 +66,20 @@ class AttentiveOptions(Options):
     pace
         How fast it drives through a corner, as a share of the speed at which the chair, turning
         as fast as it can, could just follow it; by default as ``bench/calibrate_course.py`` found.
+    onset_sd_m
+        Standard deviation of where it sees a turn begin, along the way, between interventions, m.
+    submovements_hz, submovement_noise
+        A hand that corrects in steps: so many a second, each off by this standard deviation as a
+        share of the command. 0 for a hand that follows continuously.
+    h_lag_s
+        How long after the hand its takeover signal comes on: it already steers, and the chair does
+        not yet obey, s.
+    touches_per_lap
+        How often, on average, it takes over briefly where no help is needed.
+    release_sd
+        Standard deviation of where it hands back, as a share of the angle still to turn.
+    pace_sd
+        Standard deviation of the pace between interventions.
     turns
         Which sharp turns it watches: those to the ``right`` (the paper), ``left`` or ``both``.
     """
@@ -63,6 +87,13 @@ class AttentiveOptions(Options):
     reaction_s: Annotated[float, Field(ge=0.0, le=3.0)] = 0.4
     reaction_spread: Annotated[float, Field(ge=0.0, le=1.0)] = 0.25
     pace: Annotated[float, Field(ge=0.2, le=1.0)] = 0.92
+    onset_sd_m: Annotated[float, Field(ge=0.0, le=1.0)] = 0.0
+    submovements_hz: Annotated[float, Field(ge=0.0, le=10.0)] = 0.0
+    submovement_noise: Annotated[float, Field(ge=0.0, le=1.0)] = 0.0
+    h_lag_s: Annotated[float, Field(ge=0.0, le=1.0)] = 0.0
+    touches_per_lap: Annotated[float, Field(ge=0.0, le=20.0)] = 0.0
+    release_sd: Annotated[float, Field(ge=0.0, le=1.0)] = 0.0
+    pace_sd: Annotated[float, Field(ge=0.0, le=0.3)] = 0.0
     turns: Literal["right", "left", "both"] = "right"
 
 
@@ -97,6 +128,10 @@ class AttentiveDemonstrator:
         self._sight: Sight | None = None
         self._acts_at: float | None = None
         self._hand: CornerSteering | None = None
+        # A child of the lap's numbers: drawing from it moves none of theirs.
+        (own,) = self._lap_rng.spawn(1)
+        self._variability = Variability(self._options.model_dump(), self._line.length, own)
+        self._drawn: Drawn | None = None
 
     def look(self, sight: Sight) -> None:
         """See the room."""
@@ -110,16 +145,33 @@ class AttentiveDemonstrator:
         corner = self._corner_at(self._arc)
         if corner is None or not self._wants_to_help(corner, self._sight, float(x[1])):
             self._acts_at, self._hand = None, None
-            return NO_ASSISTANCE
+            self._drawn = None if corner is None else self._drawn
+            return self._touch(self._sight.t, self._arc, Command(float(x[0]), float(x[1])))
         if self._acts_at is None:
             self._acts_at = self._sight.t + self._reaction()
         if self._sight.t < self._acts_at:
             return NO_ASSISTANCE
         if self._hand is None:
-            self._hand = CornerSteering(
-                self._line, corner, self._raster, self._lap_rng, self._options.pace
-            )
-        return Assistance(helping=True, command=self._hand.steer(self._sight, self._arc))
+            pace = min(max(self._options.pace + self._usual.pace, SLOWEST_PACE), 1.0)
+            self._hand = CornerSteering(self._line, corner, self._raster, self._lap_rng, pace)
+        command = self._hand.steer(self._sight, self._arc)
+        command = self._variability.in_steps(self._sight.t, command)
+        if self._sight.t < self._acts_at + self._options.h_lag_s:
+            return NO_ASSISTANCE  # the hand moves, the signal is not on yet
+        return Assistance(helping=True, command=command)
+
+    def _touch(self, t: float, arc: float, stick: Command) -> Assistance:
+        """Take over for a moment, doing as the user does, where no help is needed."""
+        if self._variability.touches(t, arc):
+            return Assistance(helping=True, command=stick)
+        return NO_ASSISTANCE
+
+    @property
+    def _usual(self) -> Drawn:
+        """What this intervention is like; drawn when a corner comes near."""
+        if self._drawn is None:
+            self._drawn = self._variability.intervention()
+        return self._drawn
 
     def _corner_at(self, arc: float) -> Stretch | None:
         near = (c for c in self._corners if c.start - EARLIEST <= arc <= c.end + LATEST)
@@ -128,13 +180,20 @@ class AttentiveDemonstrator:
     def _wants_to_help(self, corner: Stretch, sight: Sight, stick: float) -> bool:
         to_turn, off = self._through(corner, sight)
         if self._acts_at is not None:
-            return to_turn > ALIGNED or off > 2 * ALIGNED
+            aligned = ALIGNED * self._usual.release
+            return to_turn > aligned or off > 2 * aligned
         side = _sign(corner)
-        begun = self._reached(corner) or min(side * stick, side * sight.velocity.w) < TURNING
+        turning = min(side * stick, side * sight.velocity.w) < TURNING
+        begun = self._reached(corner) or (turning and self._seen_near(corner))
         return begun and to_turn > STILL_TO_TURN
 
+    def _seen_near(self, corner: Stretch) -> bool:
+        """Whether it has seen, as far as it is off with that, that a turn may begin."""
+        off = self._usual.onset_m
+        return not off or (self._arc or 0.0) - off >= corner.start - EARLIEST
+
     def _reached(self, corner: Stretch) -> bool:
-        return self._arc is not None and self._arc >= corner.start
+        return self._arc is not None and self._arc - self._usual.onset_m >= corner.start
 
     def _through(self, corner: Stretch, sight: Sight) -> tuple[float, float]:
         """Return how far the chair must turn to point along the next leg, and towards it.

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lad.command import Command
+from protocols.condition import AssistantRole
 from protocols.pose import Pose
 
 
@@ -32,6 +33,8 @@ class Sight:
         How many gates lie behind.
     helped
         Whether somebody else's command moved the chair in the step before: one notices.
+    helper
+        Whose command that was; ``none`` where nobody helped.
     """
 
     t: float
@@ -42,6 +45,7 @@ class Sight:
     laser: float
     gates_passed: int
     helped: bool
+    helper: AssistantRole = "none"
 
 
 @runtime_checkable

@@ -166,7 +166,7 @@ class Lap:
         self._seen = world.observe()
         self._intent = STILL
         self._intent_t = self._seen.t
-        self._helped = False
+        self._helper: AssistantRole = "none"
         # Asked once: a protocol's isinstance costs more than a model's prediction.
         self._onlookers = list(_onlookers(parts))
         learns = rules.training and isinstance(parts.model, Learner)
@@ -213,7 +213,7 @@ class Lap:
         if self._journal is not None:
             self._journal.tick(answer, demonstrator, timing)
         self._world.step(executed)
-        self._helped = assistance.helping
+        self._helper = rules.assistant if assistance.helping else "none"
         self._seen = self._world.observe()
         control = rules.assistant if assistance.helping else "driver"
         return Step(
@@ -239,7 +239,8 @@ class Lap:
             bearings=self._world.bearings,
             laser=self._world.laser_offset,
             gates_passed=self._gates.passed,
-            helped=self._helped,
+            helped=self._helper != "none",
+            helper=self._helper,
         )
 
     def _broken_off(self, reason: EndReason, note: str | None) -> Ending:

@@ -1,6 +1,7 @@
 """One lap of one person: what the hand does in each moment."""
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -47,6 +48,9 @@ class LapBehaviour:
         The room.
     rng
         The hand's random numbers in this lap.
+    compliance
+        Share of the deflection given up while a ``demonstrator`` or a ``model`` drives, where it
+        is another than the trait's.
     """
 
     def __init__(
@@ -58,8 +62,10 @@ class LapBehaviour:
         *,
         room: KnownRoom,
         rng: np.random.Generator,
+        compliance: Mapping[str, float] | None = None,
     ) -> None:
         self._traits = traits
+        self._compliance = compliance or {}
         self._skill = skilled
         self._response = response
         self._hesitation = hesitation
@@ -85,7 +91,8 @@ class LapBehaviour:
         if intention is None:
             intention = self._driving(view, situation, passed)
         # Somebody else drives: one gives up a part of the deflection, and takes it back later.
-        kept = 1.0 - self._traits.compliance * view.helped
+        given_up = self._compliance.get(view.helper, self._traits.compliance)
+        kept = 1.0 - given_up * view.helped
         self._held += (1.0 - math.exp(-passed / EASING)) * (kept - self._held)
         eased = Command(intention.v * self._held, intention.w * self._held)
         self._stick = self._lever.move(eased, passed)
