@@ -80,6 +80,9 @@ class AttentiveOptions(Options):
         Standard deviation of where it hands back, as a share of the angle still to turn.
     pace_sd
         Standard deviation of the pace between interventions.
+    enough_rad_s
+        It abstains once it has seen the limited stick ask for such a turn rate, to either side it
+        watches, in this lap or the one before: the user can. None helps always.
     turns
         Which sharp turns it watches: those to the ``right`` (the paper), ``left`` or ``both``.
     """
@@ -94,6 +97,7 @@ class AttentiveOptions(Options):
     touches_per_lap: Annotated[float, Field(ge=0.0, le=20.0)] = 0.0
     release_sd: Annotated[float, Field(ge=0.0, le=1.0)] = 0.0
     pace_sd: Annotated[float, Field(ge=0.0, le=0.3)] = 0.0
+    enough_rad_s: Annotated[float, Field(gt=0.0, le=0.5)] | None = None
     turns: Literal["right", "left", "both"] = "right"
 
 
@@ -119,10 +123,15 @@ class AttentiveDemonstrator:
         self._options = options
         self._rng = rng
         self._corners = tuple(_watched(self._line, options.turns))
+        self._fastest = (0.0, 0.0)
         self.start_lap()
 
     def start_lap(self) -> None:
         """Watch a new lap."""
+        self._fastest = (
+            0.0,
+            self._fastest[0],
+        )  # turn rates seen in this lap and in the last, rad/s
         (self._lap_rng,) = self._rng.spawn(1)
         self._arc: float | None = None
         self._sight: Sight | None = None
@@ -142,6 +151,7 @@ class AttentiveDemonstrator:
         """Say whether to help now, and how; only the user's stick is read from ``x``."""
         if self._sight is None or self._arc is None:
             return NO_ASSISTANCE
+        self._fastest = (max(self._fastest[0], self._seen_turning(float(x[1]))), self._fastest[1])
         corner = self._corner_at(self._arc)
         if corner is None or not self._wants_to_help(corner, self._sight, float(x[1])):
             self._acts_at, self._hand = None, None
@@ -159,6 +169,11 @@ class AttentiveDemonstrator:
         if self._sight.t < self._acts_at + self._options.h_lag_s:
             return NO_ASSISTANCE  # the hand moves, the signal is not on yet
         return Assistance(helping=True, command=command)
+
+    def _seen_turning(self, stick: float) -> float:
+        """Return how fast the stick asks to turn to a side that is watched, rad/s."""
+        sides = {"right": -stick, "left": stick, "both": abs(stick)}
+        return max(sides[self._options.turns], 0.0)
 
     def _touch(self, t: float, arc: float, stick: Command) -> Assistance:
         """Take over for a moment, doing as the user does, where no help is needed."""
@@ -183,6 +198,9 @@ class AttentiveDemonstrator:
             aligned = ALIGNED * self._usual.release
             return to_turn > aligned or off > 2 * aligned
         side = _sign(corner)
+        enough = self._options.enough_rad_s
+        if enough is not None and max(self._fastest) >= enough:
+            return False
         turning = min(side * stick, side * sight.velocity.w) < TURNING
         begun = self._reached(corner) or (turning and self._seen_near(corner))
         return begun and to_turn > STILL_TO_TURN
