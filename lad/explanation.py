@@ -24,8 +24,8 @@ class Influence:
         kappa(b, x), from 0 (nothing in common) to 1 (the same window): k(b, x) / k(x, x) of a
         kernel without a constant.
     contribution
-        Shape (p,): k(b, x) alpha; over all basis vectors, and the prior mean where there is one,
-        they sum to the mean.
+        Shape (p,): sigma_f^2 kappa(b, x) alpha. Over all basis vectors they sum to the mean, less
+        what every prediction shares: ``shared``.
     """
 
     time: int
@@ -51,15 +51,26 @@ def explain(process: StorkGP, most: int | None = 5) -> list[Influence]:
         By length of the contribution, longest first.
     """
     k, state, hyper = process.covariances(), process.state, process.hyperparameters
-    contributions = (k * state.alpha[:, : state.n]).T
+    local = k - hyper.constant_variance
+    contributions = (local * state.alpha[:, : state.n]).T
     order = np.argsort(-np.linalg.norm(contributions, axis=1), kind="stable")
     return [
         Influence(
             time=int(state.times[slot]),
             lap=int(state.laps[slot]),
             inputs=state.basis[:, :, slot] * process.window.lengthscales,
-            likeness=float((k[slot] - hyper.constant_variance) / hyper.signal_variance),
+            likeness=float(local[slot] / hyper.signal_variance),
             contribution=contributions[slot].copy(),
         )
         for slot in order[:most]
     ]
+
+
+def shared(process: StorkGP) -> NDArray[np.float64]:
+    """Return the part of every prediction that depends on no input, shape (p,).
+
+    The prior mean, and with a constant in the kernel sigma_c^2 times the sum of alpha: for a
+    model of corrections, the mean correction that was demonstrated, pulled towards 0.
+    """
+    state, hyper = process.state, process.hyperparameters
+    return hyper.prior_mean + hyper.constant_variance * state.alpha[:, : state.n].sum(axis=1)

@@ -152,6 +152,21 @@ class LADAssistant:
         self.when.observe(x)
         if not self.one_window:
             self.how.observe(x)
+        return self._answer()
+
+    def answer_at(self, window: NDArray[np.float64]) -> Assistance:
+        """Answer as it would at a whole window of another time; the lap's own window is lost.
+
+        Parameters
+        ----------
+        window
+            Shape (tau, 19), newest input first, in the inputs' units.
+        """
+        for process in (self.when, self.how):
+            process.window.show(window, process.window.time, process.window.lap)
+        return self._answer()
+
+    def _answer(self) -> Assistance:
         when, how = self.when.predict(), self.how.predict()
         p_help = probability_of_help(
             float(when.mean[0]),

@@ -26,5 +26,15 @@ def load(path: str) -> LADAssistant:
     ModelFileError
         When it cannot be read or is none; names the path.
     """
-    data = read(path)
-    return KINDS.get(kind_of(data, path), LADAssistant).from_bytes(data, path)
+    return from_bytes(read(path), path)
+
+
+def from_bytes(data: bytes, source: str = "model") -> LADAssistant:
+    """Return a shipped model from the bytes of its file, of whichever kind.
+
+    Raises
+    ------
+    ModelFileError
+        When it is none; names the source.
+    """
+    return KINDS.get(kind_of(data, source), LADAssistant).from_bytes(data, source)

@@ -8,7 +8,18 @@ from typing import Annotated
 import typer
 from typer.exceptions import TyperException
 
-from harness.cli import benchmark, check, listing, recover, replay, report, reproduce, run, validate
+from harness.cli import (
+    benchmark,
+    check,
+    explain,
+    listing,
+    recover,
+    replay,
+    report,
+    reproduce,
+    run,
+    validate,
+)
 from protocols.files.errors import InputError
 
 app = typer.Typer(
@@ -50,6 +61,7 @@ app.command("run")(run.run)
 app.command("report")(report.report)
 app.command("reproduce")(reproduce.reproduce)
 app.command("benchmark")(benchmark.benchmark)
+app.command("explain")(explain.explain)
 app.command("replay")(replay.replay)
 app.command("validate")(validate.validate)
 app.command("check")(check.check)
