@@ -34,7 +34,7 @@ def take_apart(pair: Pair) -> tuple[dict[str, Any], Arrays]:
     for name, process in (("when", pair.when), ("how", pair.how)):
         for key, array in state_arrays(process.state).items():
             arrays[f"{name}/{key}"] = array
-    header = {
+    header: dict[str, Any] = {
         "parameters": pair.parameters.to_header(),
         "window": window,
         "health": [pair.when.health.to_header(), pair.how.health.to_header()],

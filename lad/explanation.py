@@ -73,4 +73,6 @@ def shared(process: StorkGP) -> NDArray[np.float64]:
     model of corrections, the mean correction that was demonstrated, pulled towards 0.
     """
     state, hyper = process.state, process.hyperparameters
-    return hyper.prior_mean + hyper.constant_variance * state.alpha[:, : state.n].sum(axis=1)
+    return np.asarray(
+        hyper.prior_mean + hyper.constant_variance * state.alpha[:, : state.n].sum(axis=1)
+    )

@@ -113,7 +113,6 @@ def benchmark_protocol(
     }
     order = _order(demonstrations) if taught_here else [ALONE, DEMONSTRATION, *_helped(conditions)]
     return StudyProtocol(
-        schema=1,
         name=f"benchmark {setting.name}"[:80],
         title=f"Benchmark: {setting.name}",
         course=setting.course,

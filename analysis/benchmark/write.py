@@ -1,5 +1,6 @@
 """Read a benchmark's studies, and write what they found: one table for people, one for programs."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -70,10 +71,11 @@ def _ranks(ranks: pd.DataFrame) -> str:
             "slower than the first, s", "95%", "pairs")  # fmt: skip
     rows = [
         (
-            r.assistant, f"{r.mean_rank:.2f}", str(r.cells), f"{r.minus_demonstrator_s:.2f}",
-            f"{r.finished:.3f}", f"{r.slower_s:.2f}", _interval(r.low, r.high), str(r.pairs),
+            r["assistant"], f"{r['mean_rank']:.2f}", str(r["cells"]),
+            f"{r['minus_demonstrator_s']:.2f}", f"{r['finished']:.3f}", f"{r['slower_s']:.2f}",
+            _interval(r["low"], r["high"]), str(r["pairs"]),
         )
-        for r in ranks.itertuples()
+        for r in ranks.to_dict("records")
     ]  # fmt: skip
     return _table(head, rows)
 
@@ -84,11 +86,12 @@ def _cells(setting: str, cells: pd.DataFrame) -> str:
             "coverage", "log density", "help elsewhere")  # fmt: skip
     rows = [
         (
-            str(c.demonstrations), c.assistant, str(c.n), f"{c.minus_demonstrator_s:.2f}",
-            _interval(c.low, c.high), f"{c.minus_alone_s:.1f}", f"{c.finished:.2f}",
-            *(_number(getattr(c, name), digits) for name, digits in _SHOWN),
+            str(c["demonstrations"]), c["assistant"], str(c["n"]),
+            f"{c['minus_demonstrator_s']:.2f}", _interval(c["low"], c["high"]),
+            f"{c['minus_alone_s']:.1f}", f"{c['finished']:.2f}",
+            *(_number(c[name], digits) for name, digits in _SHOWN),
         )
-        for c in cells.itertuples()
+        for c in cells.to_dict("records")
     ]  # fmt: skip
     return f"### {setting}\n\n{_table(head, rows)}"
 
@@ -104,8 +107,8 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def _interval(low: float, high: float) -> str:
-    return "–" if pd.isna(low) else f"{low:.2f} to {high:.2f}"
+    return "–" if math.isnan(low) else f"{low:.2f} to {high:.2f}"
 
 
 def _number(value: float, digits: int) -> str:
-    return "–" if pd.isna(value) else f"{value:.{digits}f}"
+    return "–" if math.isnan(value) else f"{value:.{digits}f}"

@@ -85,7 +85,7 @@ def _mixed(
 
 
 def _summary(changes: Floats) -> dict[str, float]:
-    found = {}
+    found: dict[str, float] = {}
     for i, name in enumerate(("when", "how")):
         result = mean_difference(changes[:, i].tolist())
         found |= {name: result.estimate, f"{name}_low": result.low, f"{name}_high": result.high}

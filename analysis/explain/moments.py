@@ -20,8 +20,8 @@ def unsure_sections(model: LADAssistant, looked: Looked) -> pd.DataFrame:
     -------
     DataFrame
         ``section``, ``steps``, ``helping`` (share with p(h) at the threshold or above),
-        ``undecided`` (share with p(h) within a tenth of it) and ``spread`` (median standard
-        deviation of the command it predicts, m/s and rad/s).
+        ``undecided`` (share with p(h) within a tenth of it) and ``spread`` (root of the
+        mean variance of the command it predicts, m/s and rad/s).
     """
     rows = []
     for section, steps in looked.steps.groupby("section", sort=False):
@@ -33,7 +33,7 @@ def unsure_sections(model: LADAssistant, looked: Looked) -> pd.DataFrame:
                 "steps": len(p),
                 "helping": float((off >= 0).mean()),
                 "undecided": float((np.abs(off) < UNDECIDED).mean()),
-                "spread": float(np.sqrt(steps["variance"].astype(float)).median()),
+                "spread": float(np.sqrt(steps["variance"].to_numpy(dtype=np.float64).mean())),
             }
         )
     return pd.DataFrame(rows)

@@ -91,19 +91,19 @@ def page(found: Explained, picture: str) -> str:
                 ("input", "change of p(h)", "95%", "change of turn rate, rad/s", "95%",
                  "spread in lengthscales"),
                 [
-                    (r.input, f"{r.when:.3f}", f"{r.when_low:.3f} to {r.when_high:.3f}",
-                     f"{r.how:.3f}", f"{r.how_low:.3f} to {r.how_high:.3f}",
-                     "–" if np.isnan(r.lengthscales) else f"{r.lengthscales:.2f}")
-                    for r in found.dependence.itertuples()
+                    (r["input"], f"{r['when']:.3f}", f"{r['when_low']:.3f} to {r['when_high']:.3f}",
+                     f"{r['how']:.3f}", f"{r['how_low']:.3f} to {r['how_high']:.3f}",
+                     "–" if np.isnan(r["lengthscales"]) else f"{r['lengthscales']:.2f}")
+                    for r in found.dependence.to_dict("records")
                 ],
             ),
             "## Where it is sure",
             _table(
                 ("section", "steps", "would help", "undecided", "spread of the command"),
                 [
-                    (r.section, str(r.steps), f"{r.helping:.0%}", f"{r.undecided:.0%}",
-                     f"{r.spread:.2f}")
-                    for r in found.sections.itertuples()
+                    (r["section"], str(r["steps"]), f"{r['helping']:.0%}", f"{r['undecided']:.0%}",
+                     f"{r['spread']:.2f}")
+                    for r in found.sections.to_dict("records")
                 ],
             ),
             "## Moments that its takeovers lean on",
@@ -111,9 +111,9 @@ def page(found: Explained, picture: str) -> str:
                 ("takeover in lap", "at, s", "section", "leans on lap", "at, s", "section",
                  "likeness", "turns by, rad/s"),
                 [
-                    (str(r.lap), f"{r.t_s:.1f}", r.section, str(r.shown_lap), f"{r.shown_t_s:.1f}",
-                     r.shown_section, f"{r.likeness:.2f}", f"{r.turn:+.3f}")
-                    for r in found.moments.itertuples()
+                    (str(r["lap"]), f"{r['t_s']:.1f}", r["section"], str(r["shown_lap"]),
+                     f"{r['shown_t_s']:.1f}", r["shown_section"], f"{r['likeness']:.2f}", f"{r['turn']:+.3f}")
+                    for r in found.moments.to_dict("records")
                 ],
             ),
         ]

@@ -92,10 +92,10 @@ def _benchmark(folder: Path, cells: "Sequence[Cell]", jobs: int, scheduler: str 
         Recorded(c.setting.name, c.entry.label, c.folder, _free_side(c.setting)) for c in cells
     ]
     page, ranks = write_benchmark(folder, studies)
-    for row in ranks.itertuples():
+    for row in ranks.to_dict("records"):
         say(
-            f"{row.mean_rank:5.2f}  {row.assistant}: {row.minus_demonstrator_s:+.2f} s from the "
-            f"demonstrator, {row.finished:.1%} of laps finished"
+            f"{row['mean_rank']:5.2f}  {row['assistant']}: {row['minus_demonstrator_s']:+.2f} s from "
+            f"the demonstrator, {row['finished']:.1%} of laps finished"
         )
     say(f"Page: {page}")
     return 0

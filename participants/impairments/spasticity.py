@@ -59,6 +59,8 @@ class Spasticity:
         self._driver = driver
         self.kind = kind_of(driver)
         self._severity, self._rate, self._rng = severity, bursts_per_s, rng
+        self._t: float | None = None
+        self._meant = STILL
         self._begin()
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:
@@ -80,7 +82,7 @@ class Spasticity:
 
     def _begin(self) -> None:
         (self._lap_rng,) = self._rng.spawn(1)
-        self._t: float | None = None
+        self._t = None
         self._age = math.inf
         self._towards = (0.0, 0.0)
         self._meant = STILL
