@@ -112,7 +112,8 @@ def page(found: Explained, picture: str) -> str:
                  "likeness", "turns by, rad/s"),
                 [
                     (str(r["lap"]), f"{r['t_s']:.1f}", r["section"], str(r["shown_lap"]),
-                     f"{r['shown_t_s']:.1f}", r["shown_section"], f"{r['likeness']:.2f}", f"{r['turn']:+.3f}")
+                     f"{r['shown_t_s']:.1f}", r["shown_section"], f"{r['likeness']:.2f}",
+                     f"{r['turn']:+.3f}")
                     for r in found.moments.to_dict("records")
                 ],
             ),

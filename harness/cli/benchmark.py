@@ -93,10 +93,9 @@ def _benchmark(folder: Path, cells: "Sequence[Cell]", jobs: int, scheduler: str 
     ]
     page, ranks = write_benchmark(folder, studies)
     for row in ranks.to_dict("records"):
-        say(
-            f"{row['mean_rank']:5.2f}  {row['assistant']}: {row['minus_demonstrator_s']:+.2f} s from "
-            f"the demonstrator, {row['finished']:.1%} of laps finished"
-        )
+        place, who = f"{row['mean_rank']:5.2f}", row["assistant"]
+        behind, finished = row["minus_demonstrator_s"], row["finished"]
+        say(f"{place}  {who}: {behind:+.2f} s from the demonstrator, {finished:.1%} finished")
     say(f"Page: {page}")
     return 0
 
