@@ -19,8 +19,8 @@ LEAST_VARIANCE = 1e-8
 """(m/s)^2, (rad/s)^2: where nothing else differs, rounding does."""
 
 MOST_ROUNDS, CLOSE = 200, 1e-6
-FAR = 3.0
-"""A first guess: help is where the difference is farther out than this many robust sds."""
+FAR = (3.0, 2.0, 1.5)
+"""First guesses: help is where the difference is farther out than this many robust sds."""
 
 
 @dataclass(frozen=True)
@@ -78,23 +78,35 @@ def infer_help(differences: Floats) -> Inferred:
     if len(d) < LEAST_STEPS:
         raise TooFewStepsError(f"differences: given {len(d)} steps; allowed are {LEAST_STEPS} up")
     scale = np.maximum(np.median(np.abs(d), axis=0) / 0.6745, LEAST_VARIANCE**0.5)
-    p = (np.square(d / scale).sum(axis=1) > FAR**2).astype(np.float64)
-    alone = _noise_alone(d)
-    if not 0.0 < p.mean() < 1.0:
-        return alone
-    before = -np.inf
-    stay = np.array([0.95, 0.95])
+    out = np.square(d / scale).sum(axis=1)
+    fits = [_fitted(d, (out > far**2).astype(np.float64)) for far in FAR]
+    # The other way round, with the noise in the state of help, is a local optimum too.
+    right = [f for f in fits if f is not None and _help_is_larger(d, f[0])]
+    p, stay, evidence = max(right, key=lambda fit: fit[2], default=(None, None, -np.inf))
+    without = _log_normal(d, np.zeros(2), np.diag(_square(d))).sum()
+    if p is None or stay is None or evidence - without < 4.0 * np.log(len(d)):
+        return _noise_alone(d)
+    noise = np.sqrt(_weighted_square(d, 1.0 - p))
+    return Inferred(p, _pair(stay), _pair(noise), _pair(p @ d / p.sum()))
+
+
+def _fitted(d: Floats, p: Floats) -> tuple[Floats, Floats, float] | None:
+    """Return p(h = +1), the probabilities to stay and the log evidence from a first guess of p."""
+    stay, before, evidence = np.array([0.95, 0.95]), -np.inf, -np.inf
     for _ in range(MOST_ROUNDS):
-        log_emission = _emissions(d, p)
-        p, stay, evidence = _smoothed(log_emission, stay, float(np.clip(p[0], 0.01, 0.99)))
-        if evidence - before < CLOSE or not 1e-6 < p.mean() < 1.0 - 1e-6:
+        if not 1e-6 < p.mean() < 1.0 - 1e-6:
+            return None
+        p, stay, evidence = _smoothed(_emissions(d, p), stay, float(np.clip(p[0], 0.01, 0.99)))
+        if evidence - before < CLOSE:
             break
         before = evidence
-    if evidence - _log_normal(d, np.zeros(2), np.diag(_square(d))).sum() < 4.0 * np.log(len(d)):
-        return alone
-    noise = np.sqrt(_weighted_square(d, 1.0 - p))
-    correction = p @ d / p.sum()
-    return Inferred(p, _pair(stay), _pair(noise), _pair(correction))
+    return p, stay, evidence
+
+
+def _help_is_larger(d: Floats, p: Floats) -> bool:
+    scale = _square(d)
+    with_help, without = _weighted_square(d, p), _weighted_square(d, 1.0 - p)
+    return bool((with_help / scale).sum() > (without / scale).sum())
 
 
 def _pair(values: Floats) -> tuple[float, float]:
