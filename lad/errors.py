@@ -15,3 +15,7 @@ class InvalidTargetError(ValueError):
 
 class ModelFileError(ValueError):
     """Bytes that are not a saved model, or not one that this version can read."""
+
+
+class TooFewStepsError(ValueError):
+    """Too little was taught to tune hyperparameters by; the model is as it was before."""

@@ -21,9 +21,11 @@ class Influence:
     inputs
         Shape (tau, d): what was seen then, newest first, in the inputs' units.
     likeness
-        k(b, x) / k(x, x), from 0 (nothing in common) to 1 (the same window).
+        kappa(b, x), from 0 (nothing in common) to 1 (the same window): k(b, x) / k(x, x) of a
+        kernel without a constant.
     contribution
-        Shape (p,): k(b, x) alpha; over all basis vectors they sum to the mean.
+        Shape (p,): sigma_f^2 kappa(b, x) alpha. Over all basis vectors they sum to the mean, less
+        what every prediction shares: ``shared``.
     """
 
     time: int
@@ -48,16 +50,29 @@ def explain(process: StorkGP, most: int | None = 5) -> list[Influence]:
     list of Influence
         By length of the contribution, longest first.
     """
-    k, state = process.covariances(), process.state
-    contributions = (k * state.alpha[:, : state.n]).T
+    k, state, hyper = process.covariances(), process.state, process.hyperparameters
+    local = k - hyper.constant_variance
+    contributions = (local * state.alpha[:, : state.n]).T
     order = np.argsort(-np.linalg.norm(contributions, axis=1), kind="stable")
     return [
         Influence(
             time=int(state.times[slot]),
             lap=int(state.laps[slot]),
             inputs=state.basis[:, :, slot] * process.window.lengthscales,
-            likeness=float(k[slot] / process.hyperparameters.signal_variance),
+            likeness=float(local[slot] / hyper.signal_variance),
             contribution=contributions[slot].copy(),
         )
         for slot in order[:most]
     ]
+
+
+def shared(process: StorkGP) -> NDArray[np.float64]:
+    """Return the part of every prediction that depends on no input, shape (p,).
+
+    The prior mean, and with a constant in the kernel sigma_c^2 times the sum of alpha: for a
+    model of corrections, the mean correction that was demonstrated, pulled towards 0.
+    """
+    state, hyper = process.state, process.hyperparameters
+    return np.asarray(
+        hyper.prior_mean + hyper.constant_variance * state.alpha[:, : state.n].sum(axis=1)
+    )

@@ -88,13 +88,14 @@ def kernel_vector(
     n: int,
     inverse_scale: float,
     signal_variance: float,
+    constant_variance: float,
     k: Vector,
     distance: Vector,
 ) -> None:
     """Equation (7) against the first n basis vectors, into ``k``; ``distance`` is scratch.
 
-    ``inverse_scale`` is 1 / sigma_rho^2. Inputs are taken four at a time: one load and store of
-    the running sum for four of them.
+    ``inverse_scale`` is 1 / sigma_rho^2; a constant variance of 0 changes no bit. Inputs are taken
+    four at a time: one load and store of the running sum for four of them.
     """
     depth, d = window.shape
     # The recursion starts at the oldest input and ends at the newest; k - 1 is 0 before the first.
@@ -116,7 +117,7 @@ def kernel_vector(
         for i in range(n):
             k[i] = exp_of_nonpositive(-0.5 * distance[i] + (k[i] - 1.0) * inverse_scale)
     for i in range(n):
-        k[i] *= signal_variance
+        k[i] = signal_variance * k[i] + constant_variance
 
 
 @compiled_sums
@@ -173,14 +174,17 @@ def predict(
     work: Matrix,
     window: Matrix,
     inverse_scale: float,
-    prior: float,
+    signal_variance: float,
+    constant_variance: float,
     mean: Vector,
 ) -> float:
     """Fill k and C k, and ``mean`` by equation (8); return equation (9), NaN with a NaN mean."""
     k, Ck = work[K_ROW], work[S_ROW]
-    kernel_vector(basis, window, n, inverse_scale, prior, k, work[E_ROW])
+    kernel_vector(
+        basis, window, n, inverse_scale, signal_variance, constant_variance, k, work[E_ROW]
+    )
     symmetric_product(C, starts, k, n, Ck)
-    latent = prior + inner(k, Ck, n)
+    latent = signal_variance + constant_variance + inner(k, Ck, n)
     for output in range(alpha.shape[0]):
         mean[output] = inner(alpha[output], k, n)
         if not np.isfinite(mean[output]):

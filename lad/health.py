@@ -71,13 +71,26 @@ class KernelMatrix:
 
     state: State
     inverse_scale: float
-    prior: float
+    signal_variance: float
+    constant_variance: float = 0.0
+
+    @property
+    def prior(self) -> float:
+        """k(x, x), every entry of its diagonal."""
+        return self.signal_variance + self.constant_variance
 
     def column(self, slot: int, n: int, out: Vector, scratch: Vector) -> None:
         """Covariance of a basis vector with the first n, into ``out``."""
         window = np.ascontiguousarray(self.state.basis[:, :, slot])
         fused.kernel_vector(
-            self.state.basis, window, n, self.inverse_scale, self.prior, out, scratch
+            self.state.basis,
+            window,
+            n,
+            self.inverse_scale,
+            self.signal_variance,
+            self.constant_variance,
+            out,
+            scratch,
         )
 
     def residual_of_column(self, slot: int) -> float:

@@ -4,10 +4,12 @@
 ``GPHyperparameters`` is what one Gaussian process is built from.
 """
 
+import math
 from numbers import Real
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from scipy.special import ndtri
 
 from lad.errors import HyperparameterError
 from lad.inputs import N_SEGMENTS
@@ -35,8 +37,14 @@ Lengthscale = Annotated[
     float, Field(ge=1e-9, le=1e12, allow_inf_nan=False), BeforeValidator(_number)
 ]
 Variance = Annotated[float, Field(ge=1e-9, le=1e9, allow_inf_nan=False), BeforeValidator(_number)]
+NoVariance = Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False), BeforeValidator(_number)]
+Mean = Annotated[float, Field(ge=-1e9, le=1e9, allow_inf_nan=False), BeforeValidator(_number)]
+Probability = Annotated[
+    float, Field(ge=0.001, le=0.999, allow_inf_nan=False), BeforeValidator(_number)
+]
 Novelty = Annotated[float, Field(gt=0, lt=1, allow_inf_nan=False), BeforeValidator(_number)]
 Capacity = Annotated[int, Field(ge=1, le=20_000), BeforeValidator(_number)]
+Laps = Annotated[int, Field(ge=1, le=1_000), BeforeValidator(_number)]
 RecursionDepth = Annotated[int, Field(ge=1, le=1_000), BeforeValidator(_number)]
 Threshold = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False), BeforeValidator(_number)]
 
@@ -59,6 +67,10 @@ class _Checked(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", validate_default=True)
 
+    came_later: ClassVar[tuple[str, ...]] = ()
+    """Fields that the first version did not have. A saved model, or a study, that leaves them at
+    their defaults is the one it was, to the last byte."""
+
     def __init__(self, **values: Any) -> None:
         try:
             super().__init__(**values)
@@ -67,6 +79,16 @@ class _Checked(BaseModel):
 
     # Nested validation (a protocol file) then keeps pydantic's own errors, with their location.
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]  # pydantic's own mark
+
+    def to_header(self) -> dict[str, Any]:
+        """Give the fields to a saved model, without later ones that stand at their defaults."""
+        later = type(self).later_defaults()
+        return {k: v for k, v in self.model_dump().items() if k not in later or v != later[k]}
+
+    @classmethod
+    def later_defaults(cls) -> dict[str, Any]:
+        """Return the fields that the first version did not have, with their defaults."""
+        return {name: cls.model_fields[name].default for name in cls.came_later}
 
     @classmethod
     def from_header(cls, values: object) -> Self:
@@ -93,7 +115,12 @@ class GPHyperparameters(_Checked):
     temporal_scale
         sigma_rho of equation (7), which divides by its square.
     signal_variance
-        sigma_f^2 = k(x, x), in squared units of the target.
+        sigma_f^2, in squared units of the target.
+    constant_variance
+        sigma_c^2, in the same units: the prior variance of a constant that is added to the
+        function. k(x, x') = sigma_f^2 kappa(x, x') + sigma_c^2; 0 is the paper's kernel.
+    prior_mean
+        m0, in units of the target: what is predicted where nothing is known; 0 in the paper.
     novelty
         A point is novel when gamma >= novelty * k(x, x): a share of the prior variance, so it
         has no unit and lies between 0 and 1.
@@ -121,7 +148,16 @@ or equal to 1 (given 0)
     recursion_depth: RecursionDepth = 4
     temporal_scale: TemporalScale = 1.1
     signal_variance: Variance = 0.1
+    constant_variance: NoVariance = 0.0
+    prior_mean: Mean = 0.0
     novelty: Novelty = 1e-4
+
+    came_later: ClassVar[tuple[str, ...]] = ("constant_variance", "prior_mean")
+
+    @property
+    def prior_variance(self) -> float:
+        """k(x, x) = sigma_f^2 + sigma_c^2."""
+        return self.signal_variance + self.constant_variance
 
     @property
     def n_inputs(self) -> int:
@@ -154,6 +190,21 @@ class LADParameters(_Checked):
     probability
         ``probit``: Phi(mu / sqrt(sigma^2 + noise)), the predictive probability of the model;
         ``paper``: Phi(mu / sigma^2), equation (10) as printed.
+    prior_help
+        pi, the probability of help where nothing is known, between .001 and .999. The classifier's
+        latent mean is then m0 = Phi^-1(pi) sqrt(sigma_f^2 + sigma_n^2), so that the predictive
+        probability (``probit``) of an unknown state is pi. The paper has .5, that is m0 = 0.
+    constant_variance
+        sigma_c^2 of the regressor; None for the model's own: 0 for ``lad``, 0.1 for
+        ``lad-correction``.
+    tune
+        ``evidence``: at the start of a lap, what was taught since the last one chooses the
+        regressor's hyperparameters by exact marginal likelihood, and the classifier's signal
+        variance (``lad.tuning``); the values here are where the search begins and where its prior
+        is centred. ``none`` keeps them, as the paper does.
+    memory_laps
+        How many of the last taught laps the model knows; None for all. What is older is forgotten
+        at the start of a lap.
 
     Raises
     ------
@@ -181,8 +232,19 @@ class LADParameters(_Checked):
     novelty: Novelty = 1e-4
     threshold: Threshold = 0.5
     probability: Literal["probit", "paper"] = "probit"
+    prior_help: Probability = 0.5
+    constant_variance: NoVariance | None = None
+    tune: Literal["none", "evidence"] = "none"
+    memory_laps: Laps | None = None
 
-    def _process(self, noise_variance: float) -> GPHyperparameters:
+    came_later: ClassVar[tuple[str, ...]] = (
+        "prior_help",
+        "constant_variance",
+        "tune",
+        "memory_laps",
+    )
+
+    def _process(self, noise_variance: float, **further: float) -> GPHyperparameters:
         return GPHyperparameters(
             lengthscales=(self.lengthscale_user,) * 2
             + (self.lengthscale_velocity,) * 2
@@ -193,14 +255,16 @@ class LADParameters(_Checked):
             temporal_scale=self.temporal_scale,
             signal_variance=self.signal_variance,
             novelty=self.novelty,
+            **further,
         )
 
     @property
     def classifier(self) -> GPHyperparameters:
         """Hyperparameters of the when-to-help process."""
-        return self._process(self.noise_when)
+        spread = math.sqrt(self.signal_variance + self.noise_when)
+        return self._process(self.noise_when, prior_mean=float(ndtri(self.prior_help)) * spread)
 
     @property
     def regressor(self) -> GPHyperparameters:
         """Hyperparameters of the how-to-help process."""
-        return self._process(self.noise_how)
+        return self._process(self.noise_how, constant_variance=self.constant_variance or 0.0)

@@ -9,6 +9,7 @@ def recursive_kernel(
     b: NDArray[np.float64],
     squared_temporal_scale: float,
     signal_variance: float,
+    constant_variance: float = 0.0,
 ) -> NDArray[np.float64]:
     """Covariance of one window with many.
 
@@ -25,11 +26,15 @@ def recursive_kernel(
         sigma_rho^2 (not sigma_rho).
     signal_variance
         sigma_f^2.
+    constant_variance
+        sigma_c^2, added to every entry: the prior variance of a constant that is added to the
+        function (integrated out; Rasmussen & Williams, Gaussian processes for machine learning,
+        2006, section 2.7).
 
     Returns
     -------
     NDArray
-        Shape (...,): sigma_f^2 kappa, between 0 and sigma_f^2.
+        Shape (...,): sigma_f^2 kappa + sigma_c^2, between sigma_c^2 and sigma_f^2 + sigma_c^2.
 
     Examples
     --------
@@ -41,4 +46,4 @@ def recursive_kernel(
     kappa = np.ones(squared_distance.shape[:-1])
     for lag in reversed(range(b.shape[0])):
         kappa = np.exp(-0.5 * squared_distance[..., lag] + (kappa - 1.0) / squared_temporal_scale)
-    return signal_variance * kappa
+    return signal_variance * kappa + constant_variance

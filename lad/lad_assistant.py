@@ -1,23 +1,22 @@
 """The learned assistant: when to help and how, section III of Soh & Demiris."""
 
 from pathlib import Path
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lad.assistant import Assistance
+from lad.assistant_file import restore, take_apart
 from lad.command import Command
 from lad.errors import InvalidTargetError
-from lad.health import Health
-from lad.hyperparameters import LADParameters
+from lad.hyperparameters import GPHyperparameters, LADParameters
 from lad.likelihood import probability_of_help
 from lad.model_file import pack, read, rebuilding, unpack, write_whole
-from lad.snapshot import Arrays, restore_state, restore_window, state_arrays, window_arrays
 from lad.stork_gp import StorkGP
-
-KIND = "lad-assistant"
-HELPING, NOT_HELPING = 1.0, -1.0
+from lad.tuning.reteach import HELPING, NOT_HELPING, reteach
+from lad.tuning.taught import TaughtSteps
+from lad.tuning.tune import LEAST_STEPS, Tuned, refuse_too_few, tune
 
 
 class LADAssistant:
@@ -30,6 +29,21 @@ class LADAssistant:
     ----------
     parameters
         Table I by default.
+
+    Attributes
+    ----------
+    kind
+        What a saved model of this class says that it is.
+    default_constant_variance
+        sigma_c^2 of the regressor, unless the parameters say another.
+    when, how
+        The two processes. They look at one window, until tuning gives them other lengthscales.
+    tuned
+        What ``tune: evidence`` has chosen last; None before, and without it.
+    taught
+        Every step that was learnt; None unless the parameters ask for tuning or forgetting.
+    since
+        How many steps were learnt since ``start_lap`` last considered them.
 
     Examples
     --------
@@ -44,14 +58,77 @@ class LADAssistant:
     True
     """
 
+    kind: ClassVar[str] = "lad-assistant"
+    default_constant_variance: ClassVar[float] = 0.0
+
     def __init__(self, parameters: LADParameters | None = None) -> None:
         self.parameters = parameters or LADParameters()
-        self.when = StorkGP(self.parameters.classifier, "probit")
-        self.how = StorkGP(self.parameters.regressor, n_outputs=2, window=self.when.window)
+        if self.parameters.constant_variance is None and self.default_constant_variance:
+            update = {"constant_variance": self.default_constant_variance}
+            self.parameters = self.parameters.model_copy(update=update)
+        self.tuned: Tuned | None = None
+        keeps = self.parameters.tune != "none" or self.parameters.memory_laps is not None
+        self.taught = TaughtSteps() if keeps else None
+        self.since = 0
+        self.make_processes(self.parameters.classifier, self.parameters.regressor)
+
+    def make_processes(self, when: GPHyperparameters, how: GPHyperparameters) -> None:
+        """Begin anew with two untaught processes."""
+        self.when = StorkGP(when, "probit")
+        shared = self.when.window if how.lengthscales == when.lengthscales else None
+        self.how = StorkGP(how, n_outputs=2, window=shared)
+
+    @property
+    def one_window(self) -> bool:
+        """Whether the two processes look at the same window."""
+        return self.how.window is self.when.window
 
     def start_lap(self) -> None:
-        """Forget the last lap's history; keep what was learnt."""
+        """Forget the last lap's history; keep what was learnt, as far as the parameters say so.
+
+        With ``tune: evidence`` hyperparameters are chosen anew when something was taught since the
+        last time, and 20 steps with help and 20 without are known.
+        """
         self.when.reset_window()
+        if not self.one_window:
+            self.how.reset_window()
+        if self.taught is not None and self.since:
+            self._reconsider(self.taught)
+
+    def tune(self) -> Tuned:
+        """Choose hyperparameters by evidence now, and learn everything again with them.
+
+        Raises
+        ------
+        TooFewStepsError
+            When fewer than 20 steps with help, or without, are known; nothing has changed.
+        """
+        taught = TaughtSteps() if self.taught is None else self.taught
+        refuse_too_few(taught)
+        tuned = tune(self.parameters, taught)
+        self._teach_again(taught, tuned)
+        return tuned
+
+    def _reconsider(self, taught: TaughtSteps) -> None:
+        """Forget, tune, and learn again what is known, where one of these changed something."""
+        self.since, forgotten = 0, 0
+        if self.parameters.memory_laps is not None:
+            laps = sorted(set(taught.laps))
+            forgotten = taught.forget_before(laps[-self.parameters.memory_laps :][0])
+        helped = int(taught.helped.sum())
+        enough = min(helped, len(taught) - helped) >= LEAST_STEPS
+        if self.parameters.tune == "evidence" and enough:
+            self.tune()
+        elif forgotten:
+            self._teach_again(taught, self.tuned)
+
+    def _teach_again(self, taught: TaughtSteps, tuned: Tuned | None) -> None:
+        now, self.tuned = self.when.window, tuned
+        if tuned is None:
+            self.make_processes(self.parameters.classifier, self.parameters.regressor)
+        else:
+            self.make_processes(tuned.when, tuned.how)
+        reteach(taught, self.when, self.how, now)
 
     def assist(self, x: NDArray[np.float64]) -> Assistance:
         """Look at the inputs once, and predict when and how.
@@ -73,6 +150,23 @@ class LADAssistant:
             When x has another shape or type or is not finite; nothing has changed.
         """
         self.when.observe(x)
+        if not self.one_window:
+            self.how.observe(x)
+        return self._answer()
+
+    def answer_at(self, window: NDArray[np.float64]) -> Assistance:
+        """Answer as it would at a whole window of another time; the lap's own window is lost.
+
+        Parameters
+        ----------
+        window
+            Shape (tau, 19), newest input first, in the inputs' units.
+        """
+        for process in (self.when, self.how):
+            process.window.show(window, process.window.time, process.window.lap)
+        return self._answer()
+
+    def _answer(self) -> Assistance:
         when, how = self.when.predict(), self.how.predict()
         p_help = probability_of_help(
             float(when.mean[0]),
@@ -80,7 +174,7 @@ class LADAssistant:
             self.parameters.noise_when,
             self.parameters.probability,
         )
-        mean = Command(float(how.mean[0]), float(how.mean[1]))
+        mean = self._said(Command(float(how.mean[0]), float(how.mean[1])))
         helping = p_help >= self.parameters.threshold and self.how.n_basis > 0
         return Assistance(
             helping=helping,
@@ -108,24 +202,27 @@ class LADAssistant:
         """
         if not self.when.window.seen:
             raise InvalidTargetError("learn: nothing was seen in this lap; assist comes first")
-        if helping:
-            if command is None:
-                raise InvalidTargetError("command: given None while helping; allowed is a Command")
-            self.how.learn(command)
+        if helping and command is None:
+            raise InvalidTargetError("command: given None while helping; allowed is a Command")
+        target = None if command is None or not helping else self._learnt(command)
+        if target is not None:
+            self.how.learn(target)
         self.when.learn(HELPING if helping else NOT_HELPING)
+        if self.taught is not None:
+            self.taught.add(self.when.window, target)
+            self.since += 1
+
+    def _learnt(self, command: Command) -> Command:
+        """Return what the regressor learns of a demonstrator's command: the command."""
+        return command
+
+    def _said(self, mean: Command) -> Command:
+        """Return the command that follows from the regressor's mean: the mean."""
+        return mean
 
     def to_bytes(self) -> bytes:
         """Save as the bytes of one portable npz; the same bytes for the same model."""
-        window, arrays = window_arrays(self.when.window)
-        for name, process in (("when", self.when), ("how", self.how)):
-            for key, array in state_arrays(process.state).items():
-                arrays[f"{name}/{key}"] = array
-        header = {
-            "parameters": self.parameters.model_dump(),
-            "window": window,
-            "health": [self.when.health.to_header(), self.how.health.to_header()],
-        }
-        return pack(KIND, header, arrays)
+        return pack(self.kind, *take_apart(self))
 
     @classmethod
     def from_bytes(cls, data: bytes, source: str = "model") -> Self:
@@ -134,15 +231,12 @@ class LADAssistant:
         Raises
         ------
         ModelFileError
-            When the bytes are not a saved assistant; ``source`` names them.
+            When the bytes are not a saved assistant of this class; ``source`` names them.
         """
-        header, arrays = unpack(data, KIND, source)
+        header, arrays = unpack(data, cls.kind, source)
         with rebuilding(source):
             model = cls(LADParameters.from_header(header["parameters"]))
-            restore_window(model.when.window, header["window"], arrays)
-            for name, process in (("when", model.when), ("how", model.how)):
-                restore_state(process.state, _belonging_to(name, arrays))
-            model.when.health, model.how.health = (Health(**one) for one in header["health"])
+            restore(model, header, arrays)
         return model
 
     def save(self, path: str | Path) -> None:
@@ -156,10 +250,3 @@ class LADAssistant:
 
     def __reduce__(self) -> tuple[object, tuple[bytes]]:
         return type(self).from_bytes, (self.to_bytes(),)
-
-
-def _belonging_to(name: str, arrays: Arrays) -> Arrays:
-    prefix = f"{name}/"
-    return {
-        key.removeprefix(prefix): array for key, array in arrays.items() if key.startswith(prefix)
-    }

@@ -94,14 +94,8 @@ def unpack(
     ModelFileError
         When the bytes are truncated, foreign, too large, of another kind or of a later format.
     """
-    if len(data) > MAX_BYTES:
-        raise ModelFileError(f"{source}: {len(data)} bytes; a model may have {MAX_BYTES}")
-    try:
-        arrays = _arrays(data)
-        header = json.loads(str(arrays.pop("header")))
-        found = (header["format"], header["format_version"], header["kind"])
-    except Exception as error:  # whatever zip, numpy and JSON may raise on foreign bytes
-        raise ModelFileError(f"{source}: truncated, or not a saved model at all") from error
+    header, arrays = _opened(data, source)
+    found = (header["format"], header["format_version"], header["kind"])
     if found[0] != FORMAT:
         raise ModelFileError(f"{source}: given format {found[0]!r}; allowed is {FORMAT!r}")
     if found[1] != FORMAT_VERSION:
@@ -110,6 +104,29 @@ def unpack(
         )
     if found[2] != kind:
         raise ModelFileError(f"{source}: holds a {found[2]!r}; wanted is a {kind!r}")
+    return header, arrays
+
+
+def kind_of(data: bytes, source: str = "model") -> str:
+    """Return what a saved model says that it holds, whatever its format version.
+
+    Raises
+    ------
+    ModelFileError
+        When the bytes are truncated, foreign or too large.
+    """
+    return str(_opened(data, source)[0]["kind"])
+
+
+def _opened(data: bytes, source: str) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    if len(data) > MAX_BYTES:
+        raise ModelFileError(f"{source}: {len(data)} bytes; a model may have {MAX_BYTES}")
+    try:
+        arrays = _arrays(data)
+        header = json.loads(str(arrays.pop("header")))
+        _ = header["format"], header["format_version"], header["kind"]
+    except Exception as error:  # whatever zip, numpy and JSON may raise on foreign bytes
+        raise ModelFileError(f"{source}: truncated, or not a saved model at all") from error
     return header, arrays
 
 

@@ -134,15 +134,21 @@ class PlainStorkGP:
         """Covariance of the window with every basis vector, shape (n,)."""
         hyper = self.hyperparameters
         return recursive_kernel(
-            self.basis, self.window.scaled, hyper.squared_temporal_scale, hyper.signal_variance
+            self.basis,
+            self.window.scaled,
+            hyper.squared_temporal_scale,
+            hyper.signal_variance,
+            hyper.constant_variance,
         )
 
     def predict(self) -> Prediction:
         """Predict at the current window: equations (8) and (9)."""
         k = self.kernel()
         hyper = self.hyperparameters
-        latent = max(hyper.signal_variance + float(k @ self.state.C @ k), SMALLEST_VARIANCE)
-        return Prediction(k @ self.state.alpha, latent, latent + hyper.noise_variance)
+        latent = max(hyper.prior_variance + float(k @ self.state.C @ k), SMALLEST_VARIANCE)
+        return Prediction(
+            hyper.prior_mean + k @ self.state.alpha, latent, latent + hyper.noise_variance
+        )
 
     def learn(self, y: object) -> Update:
         """Learn the target of the current window."""
@@ -153,7 +159,7 @@ class PlainStorkGP:
 
     def _update(self, k: NDArray[np.float64], derivatives: Evidence) -> Update:
         hyper = self.hyperparameters
-        prior = hyper.signal_variance
+        prior = hyper.prior_variance
         gamma = float(prior - k @ self.state.Q @ k)
         novelty = gamma / prior if gamma >= SMALLEST_NOVELTY else 0.0
         if gamma < max(hyper.novelty * prior, SMALLEST_NOVELTY):

@@ -87,12 +87,17 @@ class StorkGP:
             n_outputs=n_outputs,
             capacity=hyperparameters.capacity,
         )
-        self._prior = hyperparameters.signal_variance
+        self._signal = hyperparameters.signal_variance
+        self._constant = hyperparameters.constant_variance
+        self._prior = hyperparameters.prior_variance
+        self._prior_mean = hyperparameters.prior_mean
         self._noise = hyperparameters.noise_variance
         self._inverse_scale = 1.0 / hyperparameters.squared_temporal_scale
         self._least_novel = max(hyperparameters.novelty * self._prior, SMALLEST_NOVELTY)
         self.health = Health()
-        self._kernel_matrix = KernelMatrix(self.state, self._inverse_scale, self._prior)
+        self._kernel_matrix = KernelMatrix(
+            self.state, self._inverse_scale, self._signal, self._constant
+        )
         self._mean = np.zeros(n_outputs)
         self._computed_latent = self._latent = 0.0
         self._looked_at = -1
@@ -134,9 +139,12 @@ class StorkGP:
             state.work,
             self.window.scaled,
             self._inverse_scale,
-            self._prior,
+            self._signal,
+            self._constant,
             self._mean,
         )
+        if self._prior_mean:
+            self._mean += self._prior_mean
         self._computed_latent = latent
         self._latent = max(SMALLEST_VARIANCE, latent)  # in this order NaN gives way
         self._looked_at = self.window.version
@@ -231,7 +239,7 @@ class StorkGP:
         """Save as the bytes of one portable npz; the same bytes for the same model."""
         window, arrays = window_arrays(self.window)
         header = {
-            "hyperparameters": self.hyperparameters.model_dump(),
+            "hyperparameters": self.hyperparameters.to_header(),
             "likelihood": self.likelihood,
             "n_outputs": self.n_outputs,
             "window": window,

@@ -89,6 +89,25 @@ class Window:
         self.seen = 0
         self.version += 1
 
+    def show(self, inputs: NDArray[np.float64], time: int, lap: int) -> None:
+        """Show a whole window that was seen at another time.
+
+        Parameters
+        ----------
+        inputs
+            Shape (tau, d), in the inputs' own units, as ``inputs`` was then.
+        time, lap
+            When that was.
+        """
+        self.scaled[:] = inputs / self.lengthscales
+        self.time, self.lap, self.seen = time, lap, 1
+        self.version += 1
+
+    def start_at(self, time: int, lap: int) -> None:
+        """Stand at the start of a lap, after so many inputs."""
+        self.reset()
+        self.time, self.lap = time, lap
+
     @property
     def inputs(self) -> NDArray[np.float64]:
         """Shape (tau, d): the window in the inputs' own units, newest first."""

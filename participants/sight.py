@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lad.command import Command
+from protocols.condition import AssistantRole
 from protocols.pose import Pose
 
 
@@ -32,6 +33,8 @@ class Sight(NamedTuple):
         Whether another's command moved the chair in the step before: one notices.
     contact
         Whether the chair touched an obstacle in the step before: one feels it.
+    helper
+        Whose command that was; ``none`` without help.
     """
 
     t: float
@@ -43,6 +46,7 @@ class Sight(NamedTuple):
     gates_passed: int
     helped: bool
     contact: bool = False
+    helper: AssistantRole = "none"
 
 
 @runtime_checkable

@@ -1,20 +1,64 @@
 """Conditions: limitation, assistance and safeguard of a lap."""
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
 from protocols.files.file_model import FileModel, Name
-from protocols.wheelchair import MAX_TURN_RATE
+from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
 
 AssistantRole = Literal["none", "demonstrator", "model"]
-ArbitrationKind = Literal["takeover", "augment"]
+ArbitrationKind = Literal["takeover", "augment", "blend"]
+
+
+TurnRate = Annotated[float, Field(gt=0, le=MAX_TURN_RATE)]
+
+LEAST_TURN_RAD_S = 0.02
+"""A chair that turns neither way faster than this cannot be driven along any course."""
 
 
 class LimitationSettings(FileModel):
-    """The control limitation: what full deflection to the right still gives, in rad/s."""
+    """The control limitation, one or several at once.
 
-    right_turn_rad_s: Annotated[float, Field(gt=0, le=MAX_TURN_RATE)] = 0.15
+    A mapping without any field is the paper's, right turns of 0.15 rad/s; with other fields and
+    not this one, right turns are left alone.
+
+    Attributes
+    ----------
+    right_turn_rad_s, left_turn_rad_s
+        What full deflection to the side still gives, in rad/s; None for no limit.
+    speed_m_s
+        What full deflection forwards or backwards still gives, in m/s; None for no limit.
+    lag_s
+        Time constant with which the chair follows the stick, in s; 0 for none.
+    dead_zone
+        Share of the stick's deflection that does nothing; 0 for none.
+    """
+
+    right_turn_rad_s: TurnRate | None = 0.15
+    left_turn_rad_s: TurnRate | None = None
+    speed_m_s: Annotated[float, Field(ge=0.1, le=MAX_SPEED)] | None = None
+    lag_s: Annotated[float, Field(ge=0, le=2)] = 0.0
+    dead_zone: Annotated[float, Field(ge=0, le=0.8)] = 0.0
+
+    @model_validator(mode="before")
+    @classmethod
+    def _only_what_is_named(cls, given: Any) -> Any:
+        if isinstance(given, dict) and given and "right_turn_rad_s" not in given:
+            return {"right_turn_rad_s": None, **given}
+        return given
+
+    @model_validator(mode="after")
+    def _leaves_control(self) -> Self:
+        turns = (self.right_turn_rad_s, self.left_turn_rad_s)
+        if max(MAX_TURN_RATE if t is None else t for t in turns) < LEAST_TURN_RAD_S:
+            raise ValueError(
+                f"leaves no control: neither side turns faster than {LEAST_TURN_RAD_S} rad/s; "
+                f"allowed: one of them at least {LEAST_TURN_RAD_S}"
+            )
+        if turns == (None, None) and self.speed_m_s is None and not self.lag_s + self.dead_zone:
+            raise ValueError("limits nothing; leave limitation out, or give it null")
+        return self
 
 
 class Condition(FileModel):

@@ -8,13 +8,14 @@ from pydantic import Field, model_validator
 from lad.hyperparameters import LADParameters
 from protocols.cohort import Options
 from protocols.files.file_model import FileModel, part_name
-from protocols.shipped_parts import LAD, MODELS
+from protocols.shipped_parts import LAD, MODELS, WITH_PARAMETERS
 
 
 class ModelChoice(FileModel):
     """The assistant that learns; Table I of the paper is the default.
 
-    ``parameters`` are those of ``lad``, ``options`` those of any other model.
+    ``lad`` learns the demonstrator's command, as the paper's model does, ``lad-correction`` how it
+    differs from the user's; both take ``parameters``. Any other model takes ``options``.
     """
 
     use: part_name(*MODELS) = LAD  # type: ignore[valid-type]
@@ -23,8 +24,8 @@ class ModelChoice(FileModel):
 
     @model_validator(mode="after")
     def _options_are_for_others(self) -> Self:
-        if self.use == LAD and self.options:
-            raise ValueError("options are for other models; lad takes parameters")
+        if self.use in WITH_PARAMETERS and self.options:
+            raise ValueError(f"options are for other models; {self.use} takes parameters")
         return self
 
 

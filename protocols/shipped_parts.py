@@ -18,6 +18,9 @@ DRIVERS: Mapping[str, str] = {
 IMPAIRMENTS: Mapping[str, str] = {
     "tremor": "participants.impairments.tremor:tremor",
     "weakness": "participants.impairments.weakness:weakness",
+    "spasticity": "participants.impairments.spasticity:spasticity",
+    "bias": "participants.impairments.bias:bias",
+    "delay": "participants.impairments.delay:delay",
 }
 DEMONSTRATORS: Mapping[str, str] = {
     "attentive": "participants.attentive:attentive_demonstrator",
@@ -27,11 +30,15 @@ RESPONDENTS: Mapping[str, str] = {
     "ordinal": "participants.respondent:ordinal_respondent",
     LIVE: "participants.live.pages:live_respondent",
 }
-LAD = "lad"
-"""The model of the paper, the only one that takes ``parameters``."""
+LAD, CORRECTION = "lad", "lad-correction"
+"""The model of the paper, and the one that learns corrections of the user's command."""
+
+WITH_PARAMETERS = (LAD, CORRECTION)
+"""Models that take ``parameters``; every other model takes ``options``."""
 
 MODELS: Mapping[str, str] = {
     LAD: "lad.lad_assistant:LADAssistant",
+    CORRECTION: "lad.correction:CorrectionAssistant",
     "taught": "lad.trained:load",
     "linear": "lad.baselines.linear:make",
     "neighbours": "lad.baselines.neighbours:make",

@@ -76,6 +76,20 @@ VARIANTS = (
     *_scaled("lengthscale_user", "l_U", "the user's command"),
     *_scaled("lengthscale_velocity", "l_A", "the velocities"),
     *_scaled("lengthscale_laser", "l_E", "the laser"),
+    _shipped(
+        "reach",
+        "reading of Table I",
+        "M = diag(l)^-1",
+        lengthscale_user=0.1**0.5,
+        lengthscale_laser=2.0**0.5,
+    ),
+    Variant("correction", "learns a - u", "lad-correction", ModelChoice(use="lad-correction")),
+    Variant(
+        "correction-evidence",
+        "learns a - u",
+        "lad-correction, tuned",
+        ModelChoice(use="lad-correction", parameters=LADParameters(tune="evidence")),
+    ),
     *BASELINES,
 )
 """The default first. Its own values (W_h 0.5, capacity 400, tau 4) are in no group; tau = 1 is the

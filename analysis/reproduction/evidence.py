@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 import pandas as pd
@@ -11,8 +10,7 @@ from analysis.frames import StudyFrames, study_frames
 from analysis.reproduction.accuracy import accuracy_table
 from analysis.reproduction.lap_times import lap_time_table
 from analysis.reproduction.lessons import STUDIES, lessons
-from analysis.reproduction.teaching import Run, teach_in_orders
-from lad.lad_assistant import LADAssistant
+from analysis.reproduction.teaching import Run, maker, teach_in_orders
 from protocols.record.reader import open_study
 
 
@@ -62,7 +60,7 @@ def gather(folder: Path, jobs: int = 1, tell: Callable[[int, int], None] | None 
     laps = study_frames(open_study(folder / STUDIES / "rd-laps"))
     people = study_frames(open_study(folder / STUDIES / "four-lap"))
     taught = lessons(folder)
-    fresh = partial(LADAssistant, taught.study.protocol.model.parameters)
+    fresh = maker(taught.study.protocol.model)
     runs = teach_in_orders(fresh, taught.laps, taught.orders, jobs, tell)
     return Evidence(
         seed=taught.study.seed or 0,

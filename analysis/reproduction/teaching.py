@@ -11,6 +11,7 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from functools import partial
 from multiprocessing import get_context
+from pkgutil import resolve_name
 from typing import Protocol
 
 import numpy as np
@@ -19,6 +20,8 @@ from numpy.typing import NDArray
 from analysis.reproduction.demonstrations import Demonstration
 from lad.assistant import Assistant, Learner
 from lad.command import Command
+from protocols.model_choice import ModelChoice
+from protocols.shipped_parts import MODELS
 
 
 class LearningAssistant(Assistant, Learner, Protocol):
@@ -27,6 +30,14 @@ class LearningAssistant(Assistant, Learner, Protocol):
 
 MakeModel = Callable[[], LearningAssistant]
 """Makes a fresh model; importable in another process."""
+
+
+def maker(choice: ModelChoice) -> MakeModel:
+    """Return what makes a fresh model as a protocol names it."""
+    make = resolve_name(MODELS.get(choice.use, choice.use))
+    if choice.use in MODELS:
+        return partial(make, choice.parameters)
+    return partial(make, **choice.options)
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,8 +13,10 @@ import typer
 from typer.exceptions import TyperException
 
 from harness.cli import (
+    benchmark,
     check,
     check_part,
+    explain,
     export,
     imports,
     listing,
@@ -73,6 +75,8 @@ app.command("run")(run.run)
 app.command("live")(live.live)
 app.command("report")(report.report)
 app.command("reproduce")(reproduce.reproduce)
+app.command("benchmark")(benchmark.benchmark)
+app.command("explain")(explain.explain)
 app.command("replay")(replay.replay)
 app.command("export")(export.export)
 app.add_typer(imports.app, name="import")

@@ -23,7 +23,7 @@ from harness.importing.signals import (
 )
 from harness.session.lap import Ending, Step
 from harness.session.lap_log import LapLog, summary
-from harness.session.limitation import right_turn_limit, unlimited
+from harness.session.limitation import limitation_of
 from harness.session.model import basis_vectors, make_model, saved
 from harness.world.clearance import box_table, clearance
 from harness.world.world import Observation
@@ -279,6 +279,7 @@ class _Cutting:
     ) -> tuple[Ending, int]:
         """Go through a lap's steps as ``Lap`` does; return its end and how many steps it took."""
         gates = GateCounter(self.study.course)
+        self._limitation = limitation_of(condition.limitation, self._period)
         self.model.start_lap()
         observations = self._observations(sampled)
         before = next(observations)
@@ -325,9 +326,7 @@ class _Cutting:
         after: Observation,
     ) -> Step:
         intent, age = sampled.intents[i]
-        limit = condition.limitation
-        limitation = unlimited if limit is None else right_turn_limit(limit.right_turn_rad_s)
-        user = limitation(intent) if sampled.limited is None else _command(sampled.limited[i])
+        user = self._limitation(intent) if sampled.limited is None else _command(sampled.limited[i])
         x = as_inputs(user, before.velocity, before.segments)
         answer = self.model.assist(x)
         shown = sampled.demonstrator[i]

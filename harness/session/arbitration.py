@@ -41,7 +41,30 @@ def augment(user: Command, assistance: Assistance) -> Command:
     )
 
 
-ARBITRATIONS: dict[Literal["takeover", "augment"], Arbitration] = {
+def blend(user: Command, assistance: Assistance) -> Command:
+    """Mix the two commands, the assistant's share being its p(h).
+
+    The level of assistance then follows what the assistant believes, without a threshold
+    (Kucukyilmaz & Demiris, 2018, learn such a level from demonstrations). Who says no probability,
+    such as a demonstrator, has all of it while helping.
+
+    Examples
+    --------
+    >>> surely = Assistance(helping=True, p_help=0.75, mean=Command(0.2, -0.5))
+    >>> blend(Command(0.6, -0.1), surely)
+    Command(v=0.3, w=-0.4)
+    """
+    if assistance.p_help is None or assistance.mean is None:
+        return takeover(user, assistance)
+    share = assistance.p_help
+    return Command(
+        (1.0 - share) * user.v + share * assistance.mean.v,
+        (1.0 - share) * user.w + share * assistance.mean.w,
+    )
+
+
+ARBITRATIONS: dict[Literal["takeover", "augment", "blend"], Arbitration] = {
     "takeover": takeover,
     "augment": augment,
+    "blend": blend,
 }

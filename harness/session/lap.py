@@ -171,7 +171,7 @@ class Lap:
         self._seen = world.observe()
         self._intent = STILL
         self._intent_t = self._seen.t
-        self._helped = False
+        self._helper: AssistantRole = "none"
         # Checked once: a protocol's isinstance costs more than a model's prediction.
         self._onlookers = list(_onlookers(parts))
         learns = rules.training and isinstance(parts.model, Learner)
@@ -219,7 +219,7 @@ class Lap:
         if self._journal is not None:
             self._journal.tick(answer, demonstrator, timing, telemetry)
         self._world.step(executed)
-        self._helped = assistance.helping
+        self._helper = rules.assistant if assistance.helping else "none"
         self._seen = self._world.observe()
         control = rules.assistant if assistance.helping else "driver"
         return Step(
@@ -253,8 +253,9 @@ class Lap:
             self._bearings,
             self._laser_offset,
             self._gates.passed,
-            self._helped,
+            self._helper != "none",
             seen.contact,
+            self._helper,
         )
 
     def _broken_off(self, reason: EndReason, note: str | None) -> Ending:

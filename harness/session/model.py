@@ -9,7 +9,7 @@ from participants.part_loader import load_factory, refuse_missing_methods
 from protocols.code_beside import PartBeside
 from protocols.files.errors import InputError
 from protocols.model_choice import ModelChoice
-from protocols.shipped_parts import LAD
+from protocols.shipped_parts import WITH_PARAMETERS
 
 
 def make_model(
@@ -36,8 +36,9 @@ def make_model(
     InputError
         When it cannot be imported, does not take the options, or is no assistant.
     """
-    if choice.use == LAD:
-        return LADAssistant(choice.parameters)
+    if choice.use in WITH_PARAMETERS:
+        shipped: Assistant = load_factory("model", choice.use)(choice.parameters)
+        return shipped
     factory = load_factory("model", choice.use, code)
     try:
         made = factory(**_filled_in(choice.options, words or {}))
@@ -61,6 +62,24 @@ def saved(model: Assistant) -> bytes | None:
     """Return a model's portable bytes; None for one that cannot be saved."""
     to_bytes = getattr(model, "to_bytes", None)
     return to_bytes() if callable(to_bytes) else None
+
+
+def tuned_fields(model: Assistant) -> dict[str, Any]:
+    """Return the lap row's fields about hyperparameters chosen by evidence; empty without any."""
+    tuned = model.tuned if isinstance(model, LADAssistant) else None
+    if tuned is None:
+        return {}
+    user, _, velocity, _, laser = tuned.how.lengthscales[:5]
+    return {
+        "tuned_steps": tuned.steps,
+        "tuned_signal_variance_when": tuned.when.signal_variance,
+        "tuned_signal_variance_how": tuned.how.signal_variance,
+        "tuned_constant_variance_how": tuned.how.constant_variance,
+        "tuned_noise_how": tuned.how.noise_variance,
+        "tuned_lengthscale_user_how": user,
+        "tuned_lengthscale_velocity_how": velocity,
+        "tuned_lengthscale_laser_how": laser,
+    }
 
 
 def basis_vectors(model: Assistant) -> dict[str, Any]:

@@ -9,8 +9,8 @@ from harness.session.experience import experience_of
 from harness.session.journal import Journal
 from harness.session.lap import Ending, Lap, LapParts, Recorder, Rules, Step
 from harness.session.lap_log import LapLog, summary
-from harness.session.limitation import right_turn_limit, unlimited
-from harness.session.model import basis_vectors, saved
+from harness.session.limitation import limitation_of
+from harness.session.model import basis_vectors, saved, tuned_fields
 from harness.session.parts import SessionParts, question
 from harness.session.seeds import fingerprint, generator
 from harness.session.stages import Stage, StageKind, stages_of
@@ -195,7 +195,7 @@ class Session:
         parts.model.start_lap()
         log = LapLog(self._centreline, demonstrated=condition.assistant == "demonstrator")
         gates = GateCounter(self._run.study.course)
-        rules = rules_of(condition, planned.time_limit_s, protocol.hold_s)
+        rules = rules_of(condition, planned.time_limit_s, protocol.hold_s, self._world.period)
         recorder = log if self._watch is None else _Both(log, self._watch)
         ending = Lap(self._world, parts, rules, gates, self._journal).drive(recorder, self._clock)
         steps = log.table()
@@ -212,6 +212,7 @@ class Session:
             **summary(steps, ending, self._world.period),
             **log.quality(),
             **basis_vectors(parts.model),
+            **tuned_fields(parts.model),
         )
         self._laps.append(RecordedLap(row, steps))
         return ending
@@ -286,11 +287,10 @@ class _Both:
         self._second.record(step)
 
 
-def rules_of(condition: Condition, time_limit_s: float, hold_s: float) -> Rules:
-    """Return the rules of a lap of a condition."""
-    limit = condition.limitation
+def rules_of(condition: Condition, time_limit_s: float, hold_s: float, period_s: float) -> Rules:
+    """Return the rules of one lap of a condition."""
     return Rules(
-        limitation=unlimited if limit is None else right_turn_limit(limit.right_turn_rad_s),
+        limitation=limitation_of(condition.limitation, period_s),
         assistant=condition.assistant,
         arbitration=ARBITRATIONS[condition.arbitration],
         safeguarded=condition.safeguard,

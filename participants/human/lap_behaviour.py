@@ -1,6 +1,7 @@
 """One lap of one person: how the person moves the stick in each step."""
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -47,6 +48,9 @@ class LapBehaviour:
         The room.
     rng
         The stick's random numbers in this lap.
+    compliance
+        Share of the deflection given up while a ``demonstrator`` or a ``model`` drives, where it
+        is another than the trait's.
     """
 
     def __init__(
@@ -58,8 +62,10 @@ class LapBehaviour:
         *,
         room: KnownRoom,
         rng: np.random.Generator,
+        compliance: Mapping[str, float] | None = None,
     ) -> None:
         self._traits = traits
+        self._compliance = compliance or {}
         self._skill = skilled
         self._response = response
         self._hesitation = hesitation
@@ -84,8 +90,9 @@ class LapBehaviour:
         intention = self._getting_free(sight, situation.error)
         if intention is None:
             intention = self._driving(view, situation, passed)
-        # Under assistance a person gives up a part of the deflection, and takes it back afterwards.
-        kept = 1.0 - self._traits.compliance * view.helped
+        # Somebody else drives: one gives up a part of the deflection, and takes it back later.
+        given_up = self._compliance.get(view.helper, self._traits.compliance)
+        kept = 1.0 - given_up * view.helped
         self._kept_share += (1.0 - math.exp(-passed / EASING)) * (kept - self._kept_share)
         eased = Command(intention.v * self._kept_share, intention.w * self._kept_share)
         self._stick = self._lever.move(eased, passed)

@@ -5,6 +5,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from lad.hyperparameters import LADParameters
 from protocols.files.document import spoken
 from protocols.files.fault import Location
 from protocols.live import LiveSettings
@@ -33,6 +34,8 @@ _LATER: Mapping[str, Mapping[str, Any]] = {
     "item": {"answer": "point", "lowest": None, "highest": None, "step": None, "ends": None},
     "instrument": {"score": None},
     "analysis": {"margin_reason": "", "unfinished": "complete pairs"},
+    "limitation": {"left_turn_rad_s": None, "speed_m_s": None, "lag_s": 0.0, "dead_zone": 0.0},
+    "parameters": LADParameters.later_defaults(),
 }
 """Fields that came after the first version, with their defaults. A study that does not use them
 is the study it was: its digest and its record stay the same."""
@@ -76,30 +79,38 @@ def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
     del protocol["cohort"]["participants"], protocol["cohort"]["expected_dropout"]
     for field in _ABOUT:
         del protocol[field]
-    _leave_out_defaults(protocol, "protocol")
-    _leave_out_defaults(protocol["exclusion"], "exclusion")
-    if "consent" in protocol:
-        _leave_out_defaults(protocol["consent"], "consent")
-    for lap in protocol["laps"]:
-        _leave_out_defaults(lap, "lap")
+    instruments = [i.model_dump(mode="json", by_alias=True) for i in study.instruments]
+    for data, kind in list(_with_later_fields(protocol, instruments)):
+        _leave_out_defaults(data, kind)
     for model in protocol.get("models", {}).values():
         if model["sha256"] is not None:  # the model itself, wherever it lies
             del model["path"]
-    for condition in protocol["conditions"].values():
-        _leave_out_defaults(condition, "condition")
-    for analysis in protocol["analyses"]:
-        _leave_out_defaults(analysis, "analysis")
-    instruments = [i.model_dump(mode="json", by_alias=True) for i in study.instruments]
-    for instrument in instruments:
-        _leave_out_defaults(instrument, "instrument")
-    for item in (item for instrument in instruments for item in instrument["items"]):
-        _leave_out_defaults(item, "item")
     return {
         "seed": seed,
         "protocol": protocol,
         "course": study.course.model_dump(mode="json", by_alias=True),
         "instruments": instruments,
     }
+
+
+def _with_later_fields(
+    protocol: dict[str, Any], instruments: list[dict[str, Any]]
+) -> Iterator[tuple[dict[str, Any], str]]:
+    """Yield each part of a study that has got fields later, with its kind; from the inside out."""
+    yield protocol["exclusion"], "exclusion"
+    if protocol["consent"] is not None:
+        yield protocol["consent"], "consent"
+    yield protocol["model"]["parameters"], "parameters"
+    for condition in protocol["conditions"].values():
+        if condition["limitation"] is not None:
+            yield condition["limitation"], "limitation"
+        yield condition, "condition"
+    yield from ((lap, "lap") for lap in protocol["laps"])
+    yield from ((analysis, "analysis") for analysis in protocol["analyses"])
+    yield protocol, "protocol"
+    for instrument in instruments:
+        yield from ((item, "item") for item in instrument["items"])
+        yield instrument, "instrument"
 
 
 def _leave_out_defaults(data: dict[str, Any], kind: str) -> None:

@@ -107,6 +107,14 @@ class LapRow:
     late_share: float | None = None
     input_age_p99_s: float | None = None
     last_segments: tuple[float, ...] | None = None
+    tuned_steps: int | None = None
+    tuned_signal_variance_when: float | None = None
+    tuned_signal_variance_how: float | None = None
+    tuned_constant_variance_how: float | None = None
+    tuned_noise_how: float | None = None
+    tuned_lengthscale_user_how: float | None = None
+    tuned_lengthscale_velocity_how: float | None = None
+    tuned_lengthscale_laser_how: float | None = None
     place: int | None = None
 
 

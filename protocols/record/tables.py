@@ -75,6 +75,24 @@ LAP_COLUMNS: tuple[Column, ...] = (
            "step, from right to left", "m", "0 to 4", nullable=True, since=2),
     Column("place", pa.int16(), "Position among the participant's analysed laps, counted from 1; "
            "missing for practice", "", "1 or more", nullable=True, since=2),
+    Column("tuned_steps", pa.int32(), "Taught steps from which the model's hyperparameters were "
+           "chosen at the lap's start; missing where none were chosen", "", "40 or more",
+           nullable=True, since=2),
+    *(
+        Column(f"tuned_{name}", _F, f"{what}, as chosen by evidence; missing as tuned_steps is",
+               unit, nullable=True, since=2)
+        for name, what, unit in (
+            ("signal_variance_when", "Classifier's sigma_f^2", ""),
+            ("signal_variance_how", "Regressor's sigma_f^2", "(m/s)^2, (rad/s)^2"),
+            ("constant_variance_how", "Regressor's sigma_c^2", "(m/s)^2, (rad/s)^2"),
+            ("noise_how", "Regressor's sigma_n^2", "(m/s)^2, (rad/s)^2"),
+            ("lengthscale_user_how", "Regressor's lengthscale of the user's command",
+             "m/s, rad/s"),
+            ("lengthscale_velocity_how", "Regressor's lengthscale of the velocities",
+             "m/s, rad/s"),
+            ("lengthscale_laser_how", "Regressor's lengthscale of the laser segments", "m"),
+        )
+    ),
 )  # fmt: skip
 
 SURVEY_COLUMNS: tuple[Column, ...] = (

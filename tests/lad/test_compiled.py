@@ -85,14 +85,15 @@ def _problem(n):
     work = np.zeros((5, n + 1))
     basis, window = rng.normal(size=(2, 19, n + 1)), rng.normal(size=(2, 19))
     alpha = rng.normal(size=(2, n + 1))
-    return n, matrix, row_starts(n + 1), alpha, basis, work, window, 0.5, 1.0, np.zeros(2)
+    return n, matrix, row_starts(n + 1), alpha, basis, work, window, 0.5, 0.7, 0.3, np.zeros(2)
 
 
 @pytest.mark.parametrize("n", [1, 3, 8, 30, 77, 201])
 def test_copies_inside_callers_sum_in_the_same_order(n):
     """A sum by the function's own machine code has the bits of the copies that callers hold."""
     arguments = _problem(n)
-    _, matrix, starts, alpha, _, work, _, _, prior, mean = arguments
+    _, matrix, starts, alpha, _, work, _, _, signal, constant, mean = arguments
+    prior = signal + constant
     latent = fused.predict(*arguments)
     k, product = work[fused.K_ROW].copy(), np.zeros(n + 1)
     fused.symmetric_product(matrix, starts, k, n, product)

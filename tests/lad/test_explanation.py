@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lad.explanation import explain
+from lad.explanation import explain, shared
 from lad.hyperparameters import GPHyperparameters
 from lad.stork_gp import StorkGP
 from lad.stream import learn_stream
@@ -64,3 +64,17 @@ def test_explaining_changes_nothing():
     before = process.to_bytes()
     explain(process)
     assert process.to_bytes() == before
+
+
+def test_contributions_and_what_is_shared_add_up_to_the_mean():
+    """With a constant and a prior mean, too: local parts, and the part that no input changes."""
+    rng = np.random.default_rng(5)
+    hyper = GPHyperparameters(
+        lengthscales=[0.5, 1.0], noise_variance=0.01, constant_variance=0.3, prior_mean=0.2
+    )
+    process = StorkGP(hyper, n_outputs=2)
+    for x in rng.normal(size=(30, 2)):
+        process.observe(x)
+        process.learn(x + 1.0)
+    local = np.sum([one.contribution for one in explain(process, most=None)], axis=0)
+    assert np.allclose(local + shared(process), process.predict().mean, atol=1e-9)

@@ -44,8 +44,9 @@ def test_kernel_vector_is_equation_seven(n, d, tau, seed):
     rng = np.random.default_rng(seed)
     basis, window = rng.normal(size=(tau, d, n + 3)), rng.normal(size=(tau, d))
     k = np.full(n + 3, np.nan)
-    fused.kernel_vector(basis, window, n, 1.0 / 1.21, 0.1, k, np.empty(n + 3))
-    wanted = recursive_kernel(basis.transpose(2, 0, 1)[:n], window, 1.21, 0.1)
+    constant = float(rng.choice([0.0, 0.1]))
+    fused.kernel_vector(basis, window, n, 1.0 / 1.21, 0.1, constant, k, np.empty(n + 3))
+    wanted = recursive_kernel(basis.transpose(2, 0, 1)[:n], window, 1.21, 0.1, constant)
     assert np.abs(k[:n] - wanted).max() < 1e-15
     assert np.isnan(k[n:]).all()
 

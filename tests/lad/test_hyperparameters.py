@@ -25,7 +25,26 @@ def test_defaults_are_table_one():
         "novelty": 1e-4,
         "threshold": 0.5,
         "probability": "probit",
+        "prior_help": 0.5,
+        "constant_variance": None,
+        "tune": "none",
+        "memory_laps": None,
     }
+
+
+def test_what_came_later_is_not_written_where_it_stands_at_its_default():
+    """A model of Table I is saved as the first version saved it; what was chosen is written."""
+    assert "prior_help" not in LADParameters().to_header()
+    assert LADParameters(prior_help=0.35).to_header()["prior_help"] == 0.35
+    assert "constant_variance" not in LADParameters().regressor.to_header()
+    chosen = LADParameters(prior_help=0.2, constant_variance=0.3)
+    assert LADParameters.from_header(chosen.to_header()) == chosen
+
+
+def test_a_prior_of_one_half_is_the_papers():
+    """m0 is exactly 0 at .5, and the constant of the shipped model exactly 0."""
+    assert LADParameters().classifier.prior_mean == 0.0
+    assert LADParameters().regressor.constant_variance == 0.0
 
 
 def test_both_processes_derive_from_the_parameters():

@@ -82,14 +82,14 @@ def test_misread_hyperparameters(references, model, change):
 def kernel_mutant(reverse=False, first=1.0, inside=False):
     """Build a kernel that is wrong in one way."""
 
-    def kernel(a, b, squared_temporal_scale, signal_variance):
+    def kernel(a, b, squared_temporal_scale, signal_variance, constant_variance=0.0):
         squared = ((a - b) ** 2).sum(axis=-1)
         kappa = np.full(squared.shape[:-1], first)
         lags = range(b.shape[0])
         for lag in lags if reverse else reversed(lags):
             kappa = np.exp(-0.5 * squared[..., lag] + (kappa - 1.0) / squared_temporal_scale)
             kappa = signal_variance * kappa if inside else kappa
-        return kappa if inside else signal_variance * kappa
+        return (kappa if inside else signal_variance * kappa) + constant_variance
 
     return kernel
 

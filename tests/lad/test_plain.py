@@ -18,13 +18,13 @@ from lad.update import UpdateKind
 BOTH = pytest.mark.parametrize("model", [PlainStorkGP, StorkGP])
 
 
-def kernel_by_hand(a, b, tau):
+def kernel_by_hand(a, b, tau, constant=0.0):
     """Equation (7) with loops, from the paper's text alone; a and b are lists, newest first."""
     kappa = 1.0
     for lag in reversed(range(tau)):
         squared = sum((x - z) ** 2 for x, z in zip(a[lag], b[lag], strict=True))
         kappa = math.exp(-0.5 * squared) * math.exp((kappa - 1.0) / 1.1**2)
-    return 0.1 * kappa
+    return 0.1 * kappa + constant
 
 
 def windows_of(x, tau):
@@ -33,22 +33,32 @@ def windows_of(x, tau):
     return [padded[t : t + tau][::-1].tolist() for t in range(len(x))]
 
 
-def gram(windows, tau):
+def gram(windows, tau, constant=0.0):
     """Kernel matrix of all windows."""
-    return np.array([[kernel_by_hand(a, b, tau) for a in windows] for b in windows])
+    return np.array([[kernel_by_hand(a, b, tau, constant) for a in windows] for b in windows])
 
 
 @BOTH
-@pytest.mark.parametrize("tau", [1, 4])
-def test_full_updates_equal_a_batch_exact_gp(model, tau):
-    """Where every update was full, mean and variance equal a Cholesky solve's to 1e-10."""
+@pytest.mark.parametrize(
+    ("tau", "constant", "m0"), [(1, 0, 0), (4, 0, 0), (4, 0.1, 0), (4, 2, 0.3)]
+)
+def test_full_updates_equal_a_batch_exact_gp(model, tau, constant, m0):
+    """Where every update was full, mean and variance equal a Cholesky solve's to 1e-10.
+
+    Also with a constant in the kernel and a prior mean.
+    """
     rng = np.random.default_rng(tau)
     x, y = rng.normal(size=(70, 3)), rng.normal(size=(70, 2))
     hyper = GPHyperparameters(
-        lengthscales=[0.8, 1.0, 1.3], noise_variance=0.01, recursion_depth=tau, novelty=1e-9
+        lengthscales=[0.8, 1.0, 1.3],
+        noise_variance=0.01,
+        recursion_depth=tau,
+        novelty=1e-9,
+        constant_variance=constant,
+        prior_mean=m0,
     )
     process = model(hyper, n_outputs=2)
-    K = gram(windows_of(x / np.array([0.8, 1.0, 1.3]), tau), tau)
+    K = gram(windows_of(x / np.array([0.8, 1.0, 1.3]), tau), tau, constant)
     for t in range(60):
         process.observe(x[t])
         assert process.learn(y[t]).kind != UpdateKind.SPARSE
@@ -57,8 +67,10 @@ def test_full_updates_equal_a_batch_exact_gp(model, tau):
         process.observe(x[t])
         found = process.predict()
         k = K[t, :60]
-        assert np.abs(found.mean - k @ cho_solve(factor, y[:60])).max() < 1e-10
-        assert abs(found.latent_variance - (0.1 - k @ cho_solve(factor, k))) < 1e-10
+        wanted = m0 + k @ cho_solve(factor, y[:60] - m0)
+        assert np.abs(found.mean - wanted).max() < 1e-10
+        prior = 0.1 + constant
+        assert abs(found.latent_variance - (prior - k @ cho_solve(factor, k))) < 1e-10
         assert found.variance == found.latent_variance + 0.01
 
 

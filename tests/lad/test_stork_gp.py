@@ -26,8 +26,10 @@ seeds = st.integers(0, 2**32 - 1)
     capacity=st.integers(1, 20),
     novelty=st.sampled_from([1e-3, 1e-2, 0.05, 0.5]),
     probit=st.booleans(),
+    constant=st.sampled_from([0.0, 0.1, 1.0]),
+    m0=st.sampled_from([0.0, -0.2]),
 )
-def test_equals_the_definition(*, seed, d, p, tau, capacity, novelty, probit):
+def test_equals_the_definition(*, seed, d, p, tau, capacity, novelty, probit, constant, m0):
     """Predictions, events, deletions, alpha, C and Q are those of the plain form.
 
     Over every mix of first, sparse, full and deleting updates, for both likelihoods.
@@ -39,6 +41,8 @@ def test_equals_the_definition(*, seed, d, p, tau, capacity, novelty, probit):
         capacity=capacity,
         recursion_depth=tau,
         novelty=novelty,
+        constant_variance=constant,
+        prior_mean=m0,
     )
     x, y = rng.normal(size=(40, d)), rng.normal(size=(40, p))
     if probit:

@@ -195,3 +195,15 @@ def test_options_are_checked(lab_office):
     """A delay below 0 is an error that names the option."""
     with pytest.raises(InputError, match="option 'reaction_s'"):
         demonstrator(lab_office, reaction_s=-1.0)
+
+
+def test_it_abstains_once_it_has_seen_that_the_user_can_turn(room, limitation):
+    """In the lap after one with whole turns it never helps; after slowed ones, as always."""
+    watches = demonstrator(room.course, enough_rad_s=0.28)
+    intervals = []
+    for rules in ({}, {}, {"limitation": limitation}, {"limitation": limitation}):
+        lap = room.lap(autonomous(room.course), watches, **rules)
+        assert lap.finished
+        intervals.append(len(lap.intervals()))
+    assert intervals[1] == 0
+    assert intervals[3] == 2

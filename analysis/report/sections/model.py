@@ -1,7 +1,12 @@
 """Model quality: did it know when to help."""
 
+from collections.abc import Callable
+from typing import Any
+
+import pandas as pd
+
 from analysis.figures.model_quality import model_figure
-from analysis.report.blocks import Picture, Section, Shown, table
+from analysis.report.blocks import Block, Picture, Section, Shown, table
 from analysis.report.numbers import count, number
 from analysis.results import StudyResults
 
@@ -37,8 +42,31 @@ def model_section(results: StudyResults) -> Section:
             ),
             table("reliability", "Reliability of p(h = 1 | x), pooled over the steps of all laps.",
                   reliability, _COLUMNS, folded=True),
+            *tuning_blocks(results.frames.laps),
         ),
     )  # fmt: skip
+
+
+def tuning_blocks(laps: pd.DataFrame) -> tuple[Block, ...]:
+    """Return a table of hyperparameters that the evidence chose; none where it chose none."""
+    names = [name for name in laps.columns if name.startswith("tuned_")]
+    if not names or laps["tuned_steps"].isna().all():
+        return ()
+    rows = laps.dropna(subset=["tuned_steps"]).groupby("condition", sort=False)[names].median()
+    columns = [
+        Shown("condition", lambda r: r["condition"], words=True),
+        *(Shown(name.removeprefix("tuned_").replace("_", " "), _median_of(name)) for name in names),
+    ]
+    caption = (
+        "Hyperparameters that the evidence of what was taught has chosen at the start of the laps: "
+        "medians by condition, in the units of the record. What is not here stood as the protocol "
+        "has it."
+    )
+    return (table("tuning", caption, rows.reset_index(), columns, folded=True),)
+
+
+def _median_of(name: str) -> Callable[[Any], str]:
+    return lambda row: f"{row[name]:.3g}"
 
 
 _COLUMNS = [

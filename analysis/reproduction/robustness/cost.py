@@ -7,8 +7,7 @@ from pathlib import Path
 
 from analysis.reproduction.demonstrations import Demonstration
 from analysis.reproduction.lessons import lessons
-from analysis.reproduction.robustness.evidence import maker
-from analysis.reproduction.teaching import LearningAssistant, MakeModel
+from analysis.reproduction.teaching import LearningAssistant, MakeModel, maker
 from lad.command import Command
 from protocols.record.atomic import write_whole
 from protocols.variants import VARIANTS

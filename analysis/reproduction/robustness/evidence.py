@@ -2,8 +2,6 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import partial
-from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -13,9 +11,7 @@ from analysis.frames import StudyFrames, study_frames
 from analysis.outcomes import by_participant
 from analysis.reproduction.accuracy import UNDECIDED, accuracy_table
 from analysis.reproduction.lessons import STUDIES, lessons
-from analysis.reproduction.teaching import MakeModel, teach_in_orders
-from lad.lad_assistant import LADAssistant
-from protocols.model_choice import ModelChoice
+from analysis.reproduction.teaching import maker, teach_in_orders
 from protocols.record.reader import open_study
 from protocols.variants import VARIANTS, Variant
 
@@ -103,11 +99,3 @@ def _undecided(frames: StudyFrames, condition: str) -> float:
         for participant, lap in zip(laps["participant"], laps["lap"], strict=True)
     ]
     return float((np.abs(np.concatenate(p) - 0.5) < UNDECIDED).mean()) if p else float("nan")
-
-
-def maker(choice: ModelChoice) -> MakeModel:
-    """Return what makes a fresh model as a protocol names it; importable in another process."""
-    if choice.use == "lad":
-        return partial(LADAssistant, choice.parameters)
-    module, _, name = choice.use.partition(":")
-    return partial(getattr(import_module(module), name), **choice.options)

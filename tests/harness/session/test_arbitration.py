@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from harness.session.arbitration import augment, takeover
+from harness.session.arbitration import augment, blend, takeover
 from lad.assistant import NO_ASSISTANCE, Assistance
 from lad.command import Command
 from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
@@ -33,3 +33,19 @@ def test_augmented_commands_stay_within_the_chairs_limits(user, helper):
     both = augment(user, Assistance(helping=True, command=helper))
     assert abs(both.v) <= MAX_SPEED
     assert abs(both.w) <= MAX_TURN_RATE
+
+
+@given(user=commands, mean=commands, p=st.floats(0.0, 1.0))
+def test_a_blend_lies_between_the_two_commands(user, mean, p):
+    """At p(h) = 0 the user's, at 1 the assistant's, and on the line between them otherwise."""
+    mixed = blend(user, Assistance(helping=p >= 0.5, p_help=p, mean=mean))
+    for low, high, found in zip(user, mean, mixed, strict=True):
+        assert min(low, high) - 1e-12 <= found <= max(low, high) + 1e-12
+        assert abs(found - (low + p * (high - low))) < 1e-12
+
+
+@given(user=commands, helper=commands)
+def test_who_says_no_probability_has_all_of_a_blend(user, helper):
+    """A demonstrator's help counts whole, and nothing of it counts when there is none."""
+    assert blend(user, Assistance(helping=True, command=helper)) == helper
+    assert blend(user, NO_ASSISTANCE) == user

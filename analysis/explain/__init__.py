@@ -1,0 +1,1 @@
+"""What a learnt policy says about helping: what it depends on, leans on, and is unsure of."""

@@ -1,0 +1,1 @@
+"""Any assistant over courses, limitations, drivers and demonstrators: planned and run."""

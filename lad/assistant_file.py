@@ -1,0 +1,78 @@
+"""An assistant of two processes as a header and plain arrays, and back."""
+
+from typing import Any, Protocol
+
+from lad.health import Health
+from lad.hyperparameters import GPHyperparameters, LADParameters
+from lad.snapshot import Arrays, restore_state, restore_window, state_arrays, window_arrays
+from lad.stork_gp import StorkGP
+from lad.tuning.taught import PREFIX, TaughtSteps
+from lad.tuning.tune import Tuned
+
+
+class Pair(Protocol):
+    """What is saved of an assistant; ``LADAssistant`` says what each attribute is."""
+
+    parameters: LADParameters
+    when: StorkGP
+    how: StorkGP
+    tuned: Tuned | None
+    taught: TaughtSteps | None
+    since: int
+
+    @property
+    def one_window(self) -> bool:
+        """Whether the two processes look at the same window."""
+
+    def make_processes(self, when: GPHyperparameters, how: GPHyperparameters) -> None:
+        """Begin anew with two untaught processes."""
+
+
+def take_apart(pair: Pair) -> tuple[dict[str, Any], Arrays]:
+    """Return the header and the arrays of a saved assistant."""
+    window, arrays = window_arrays(pair.when.window)
+    for name, process in (("when", pair.when), ("how", pair.how)):
+        for key, array in state_arrays(process.state).items():
+            arrays[f"{name}/{key}"] = array
+    header: dict[str, Any] = {
+        "parameters": pair.parameters.to_header(),
+        "window": window,
+        "health": [pair.when.health.to_header(), pair.how.health.to_header()],
+    }
+    if pair.taught is not None:
+        header["taught_since"] = pair.since
+        arrays |= pair.taught.to_arrays() if len(pair.taught) else {}
+    if pair.tuned is not None:
+        header["tuned"] = {
+            "when": pair.tuned.when.to_header(),
+            "how": pair.tuned.how.to_header(),
+            "steps": pair.tuned.steps,
+        }
+    if not pair.one_window:
+        arrays["how/window"] = pair.how.window.scaled
+    return header, arrays
+
+
+def restore(pair: Pair, header: dict[str, Any], arrays: Arrays) -> None:
+    """Fill an untaught assistant of the same parameters with what ``take_apart`` returned."""
+    if "tuned" in header:
+        when, how = (GPHyperparameters.from_header(header["tuned"][n]) for n in ("when", "how"))
+        pair.tuned = Tuned(when, how, header["tuned"]["steps"])
+        pair.make_processes(when, how)
+    restore_window(pair.when.window, header["window"], arrays)
+    for name, process in (("when", pair.when), ("how", pair.how)):
+        own = _belonging_to(name, arrays)
+        restore_state(process.state, own)
+        if process.window is not pair.when.window:
+            restore_window(process.window, header["window"], own)
+    if pair.taught is not None and f"{PREFIX}times" in arrays:
+        pair.taught = TaughtSteps.from_arrays(arrays)
+    pair.since = header.get("taught_since", 0)
+    pair.when.health, pair.how.health = (Health(**one) for one in header["health"])
+
+
+def _belonging_to(name: str, arrays: Arrays) -> Arrays:
+    prefix = f"{name}/"
+    return {
+        key.removeprefix(prefix): array for key, array in arrays.items() if key.startswith(prefix)
+    }

@@ -1,0 +1,1 @@
+"""Hyperparameters from the demonstrations themselves, by evidence: the paper's footnote 5."""
