@@ -222,7 +222,7 @@ class AttentiveDemonstrator:
         To the corner's own side, positive.
         """
         side = _sign(corner)
-        leg = self._line.point(corner.end + LEG)
+        leg = self._legs[corner.start]
         towards = math.atan2(leg.y - sight.pose.y, leg.x - sight.pose.x)
         return (
             side * math.remainder(sight.pose.heading - leg.heading, math.tau),

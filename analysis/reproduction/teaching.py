@@ -21,7 +21,7 @@ from analysis.reproduction.demonstrations import Demonstration
 from lad.assistant import Assistant, Learner
 from lad.command import Command
 from protocols.model_choice import ModelChoice
-from protocols.shipped_parts import MODELS
+from protocols.shipped_parts import WITH_PARAMETERS, shipped_factory
 
 
 class LearningAssistant(Assistant, Learner, Protocol):
@@ -34,8 +34,8 @@ MakeModel = Callable[[], LearningAssistant]
 
 def maker(choice: ModelChoice) -> MakeModel:
     """Return what makes a fresh model as a protocol names it."""
-    make = resolve_name(MODELS.get(choice.use, choice.use))
-    if choice.use in MODELS:
+    make = resolve_name(shipped_factory("model", choice.use) or choice.use)
+    if choice.use in WITH_PARAMETERS:
         return partial(make, choice.parameters)
     return partial(make, **choice.options)
 

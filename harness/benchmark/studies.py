@@ -118,7 +118,7 @@ def plan(
                     continue
                 path = f"{{folder}}/{setting.taught_on}/{entry.label}/{SESSIONS}/{{participant}}"
                 options = {"path": f"{path}/{MODEL_FILE}"}
-                model = ModelChoice(use="lad.trained:load", options=options)
+                model = ModelChoice(use="taught", options=options)
             protocol = benchmark_protocol(setting, model, replicates, demonstrations)
             study = ResolvedStudy(protocol, course, ())
             run = StudyRun(replace(study, folder=out), seed)

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from harness.benchmark.studies import Cell
     from protocols.benchmark import Setting
 
-ASSISTANTS = ("lad-correction", "lad", "lad.baselines.neighbours:make", "lad.baselines.linear:make",
-              "lad.baselines.network:make_refitted")  # fmt: skip
+ASSISTANTS = ("lad-correction", "lad", "neighbours", "linear",
+              "network-refitted")  # fmt: skip
 """Compared when none is named."""
 
 

@@ -32,7 +32,7 @@ def test_all_assistants_meet_the_same_people(tmp_path):
 
 def test_only_what_can_be_saved_drives_elsewhere(tmp_path):
     """Nearest neighbours have no file: they are left out where they are not taught."""
-    cells = plan(tmp_path, ["lad", "lad.baselines.neighbours:make"], 5, 2)
+    cells = plan(tmp_path, ["lad", "neighbours"], 5, 2)
     elsewhere = [c.entry.label for c in cells if c.setting.taught_on]
     assert elsewhere == ["lad"]
     assert len({c.folder for c in cells}) == len(cells)
