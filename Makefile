@@ -3,7 +3,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 ALL_CORES := --numprocesses logical --maxprocesses 8 --dist worksteal
 
-.PHONY: study live test check clean
+.PHONY: study live test test-long check bench clean
 
 study: $(VENV)/installed  ## Run the four-lap study with twelve synthetic participants, and report it
 	$(BIN)/lad-study run four-lap --out studies/four-lap-seed0
@@ -15,11 +15,18 @@ test: $(VENV)/installed-test  ## Run every test and check
 	$(BIN)/python -m pytest -m "not slow" $(ALL_CORES) --hypothesis-seed 0
 	$(MAKE) check
 
+test-long: $(VENV)/installed-test  ## Run the tests that take minutes, and every test with the lowest versions
+	$(BIN)/python -m pytest -m slow $(ALL_CORES) --hypothesis-seed 0
+	.ci/lowest
+
 check: $(VENV)/installed-test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+bench: $(VENV)/installed-test  ## Add this commit's costs to bench/history.csv, as ratios; one process
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python bench/history.py
 
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)

@@ -80,13 +80,13 @@ def exclusions_of(study: Study, laps: pd.DataFrame) -> Exclusions:
         gaps = not all(lap.counted for lap in driven)
         if met is None and rules.max_collisions is not None and gaps:
             unknown.append(who)
-    said = (*_not_recorded(applied, excluded, has_rules=has_rules), *_unknown(unknown))
+    remarks = (*_not_recorded(applied, excluded, has_rules=has_rules), *_unknown(unknown))
     looked = not unknown and (has_rules or not applied)
-    return Exclusions(excluded, reasons, looked, has_rules, (*said, *_against(against)))
+    return Exclusions(excluded, reasons, looked, has_rules, (*remarks, *_against(against)))
 
 
 def _driven(study: Study, laps: pd.DataFrame) -> list[_Lap]:
-    """Return what the rules look at; contacts are counted in the steps where laps do not say."""
+    """Return what the rules need; contacts are counted in the steps where laps have no number."""
     found = []
     columns = zip(laps["participant"], laps["lap"], laps["completed"], laps["collisions"],
                   strict=True)  # fmt: skip

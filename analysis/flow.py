@@ -15,8 +15,8 @@ class Flow:
     Attributes
     ----------
     planned
-        As the protocol says, or as many as were recorded if that is more; None where a study from
-        elsewhere does not say how many were planned.
+        As in the protocol, or as many as were recorded if that is more; None where a study from
+        elsewhere does not give how many were planned.
     not_run, failed
         Planned sessions that were not begun, and sessions that broke off with an error.
     recorded
@@ -24,7 +24,7 @@ class Flow:
     refused
         Recorded participants without consent.
     consent_unknown
-        Analysed participants of whom neither consent nor a refusal was recorded.
+        Analysed participants without a recorded consent or refusal.
     excluded
         Recorded participants with consent who are excluded by a rule, by reason.
     analysed

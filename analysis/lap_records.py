@@ -1,15 +1,21 @@
 """One pass over the steps of every analysed lap: its measures, and what maps and models need."""
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
 
 import numpy as np
 import pandas as pd
+import pyarrow as pa
+import pyarrow.compute as pc
+from numpy.typing import NDArray
 
 from analysis.frames import StudyFrames, as_frame, within
 from analysis.measures.registry import MEASURES
-from analysis.measures.streams import Steps, gaps, helped, stream
+from analysis.measures.streams import Steps, at_hand, gaps, helped, stream
+from analysis.processes import in_order
 from protocols.files.errors import InputError
 from protocols.record.elsewhere.placement import Placement, said_of
 from protocols.record.reader import Study
@@ -17,6 +23,19 @@ from protocols.record.steps import STEP_COLUMNS
 
 POOLED = ("x_m", "y_m", "h_would", "p_help")
 """Numeric step columns that are kept of every lap."""
+
+WORDS = ("section", "section_kind")
+"""Step columns of words that are kept, too."""
+
+PIECE = 20
+"""Laps that are read at a time."""
+
+MANY = 600
+"""From this many laps on, starting further processes costs less than it saves."""
+
+
+_FIRST_COLUMNS = tuple(column.name for column in STEP_COLUMNS if column.since == 1)
+"""What came later is missing in older records and in simulated time, and no measure needs it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,50 +71,125 @@ class LapRecords:
     misplaced: tuple[str, ...] = ()
 
 
-def read_laps(frames: StudyFrames, progress: Callable[[str], None] | None = None) -> LapRecords:
+def read_laps(
+    frames: StudyFrames, progress: Callable[[str], None] | None = None, jobs: int = 1
+) -> LapRecords:
     """Read the steps of every analysed lap once.
 
     A step table that cannot be read is named, and its lap kept as one without steps: the other
     laps can still be analysed.
+
+    Parameters
+    ----------
+    frames
+        The study's tables.
+    progress
+        Told in a few words what is being done.
+    jobs
+        Number of processes, used from ``MANY`` laps on; see ``analysis.processes.in_order``.
     """
-    rows, pooled = [], []
-    unrecorded = [column.name for column in STEP_COLUMNS]
     found: Counter[str] = Counter()
-    damaged: list[str] = []
-    elsewhere: list[Placement] = []
-    laps = frames.laps
-    keys = zip(laps["participant"], laps["lap"], laps["condition"], laps["completed"], strict=True)
-    for done, (participant, lap, condition, completed) in enumerate(keys):
-        if progress is not None and done % 20 == 0:
-            progress(f"Measuring laps: {done} of {len(laps)}")
-        where = {"participant": participant, "lap": lap, "condition": condition}
-        try:
-            steps, remarks, placement = _steps(frames.study, participant, lap)
-        except InputError as error:
-            damaged.append(within(frames.study, error))
-            steps = pd.DataFrame()
-        if len(steps):
-            found.update((*remarks, *gaps(steps)))
-            if not placement.on_course:
-                elsewhere.append(placement)
-            pooled.append(_kept(steps, participant, lap, condition, placement))
-            unrecorded = [name for name in unrecorded if steps[name].isna().all()]
-        measured = {m.name: m.of(steps) for m in MEASURES} if len(steps) else {}
-        rows.append({**where, "completed": bool(completed), **measured})
+    unrecorded = list(_FIRST_COLUMNS)
+    laps: list[_Lap] = []
+    for piece in _pieces(frames, progress or (lambda _: None), jobs):
+        laps += piece.laps
+        unrecorded = [name for name in unrecorded if name in piece.unrecorded]
+    for lap in laps:
+        found.update(lap.gaps)
+    pooled = [lap.kept for lap in laps if lap.kept is not None]
     names = [m.name for m in MEASURES]
     columns = ["participant", "lap", "condition", "completed", *names]
-    measures = pd.DataFrame(rows, columns=columns).astype(
+    measures = pd.DataFrame([lap.row for lap in laps], columns=columns).astype(
         {**dict.fromkeys(names, "float64"), "completed": "bool"}
     )
     return LapRecords(
         measures=measures,
         steps=_together(pooled),
-        without_steps=len(laps) - len(pooled),
+        without_steps=len(frames.laps) - len(pooled),
         unrecorded=tuple(unrecorded) if pooled else (),
         gaps=dict(sorted(found.items())),
-        damaged=tuple(damaged),
-        misplaced=tuple(said_of(elsewhere)),
+        damaged=tuple(lap.damaged for lap in laps if lap.damaged is not None),
+        misplaced=tuple(said_of([lap.elsewhere for lap in laps if lap.elsewhere is not None])),
     )
+
+
+@dataclass(frozen=True, slots=True)
+class _Kept:
+    """What is kept of a lap's steps: numbers by name, and words by name as codes."""
+
+    participant: str
+    lap: int
+    condition: str
+    numbers: dict[str, NDArray[np.float32]]
+    words: dict[str, pa.DictionaryArray]
+
+
+@dataclass(frozen=True, slots=True)
+class _Lap:
+    """What the steps of one lap say; ``kept`` is None without steps."""
+
+    row: dict[str, Any]
+    kept: _Kept | None = None
+    gaps: tuple[str, ...] = ()
+    elsewhere: Placement | None = None
+    damaged: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Piece:
+    """Some laps, and the columns without a value in any of them."""
+
+    laps: list[_Lap]
+    unrecorded: list[str]
+
+
+_Where = tuple[str, int, str, bool]
+"""Participant, lap, condition, and whether it was completed."""
+
+
+def _pieces(frames: StudyFrames, tell: Callable[[str], None], jobs: int) -> Iterator[_Piece]:
+    """Yield the analysed laps in their order; many laps are read by several processes."""
+    laps = frames.laps
+    places: list[_Where] = list(
+        zip(
+            laps["participant"].tolist(),
+            laps["lap"].tolist(),
+            laps["condition"].tolist(),
+            laps["completed"].astype(bool).tolist(),
+            strict=True,
+        )
+    )
+    pieces = [places[i : i + PIECE] for i in range(0, len(places), PIECE)]
+    jobs = min(jobs, len(pieces)) if len(places) >= MANY else 1
+    done = 0
+    tell(f"Measuring laps: 0 of {len(places)}")
+    for piece in in_order(partial(_read, frames.study), pieces, jobs):
+        done += len(piece.laps)
+        tell(f"Measuring laps: {done} of {len(places)}")
+        yield piece
+
+
+def _read(study: Study, places: Sequence[_Where]) -> _Piece:
+    unrecorded = list(_FIRST_COLUMNS)
+    laps = []
+    for participant, lap, condition, completed in places:
+        where = {"participant": participant, "lap": lap, "condition": condition}
+        row = {**where, "completed": completed}
+        try:
+            steps, remarks, placement = _steps(study, participant, lap)
+        except InputError as error:
+            laps.append(_Lap(row, damaged=within(study, error)))
+            continue
+        if not len(steps):
+            laps.append(_Lap(row))
+            continue
+        unrecorded = [name for name in unrecorded if steps[name].isna().all()]
+        with at_hand(steps):
+            row |= {m.name: m.of(steps) for m in MEASURES}
+            kept = _kept(steps, participant, lap, condition, placement)
+            elsewhere = None if placement.on_course else placement
+            laps.append(_Lap(row, kept, (*remarks, *gaps(steps)), elsewhere))
+    return _Piece(laps, unrecorded)
 
 
 def _steps(study: Study, participant: str, lap: int) -> tuple[Steps, tuple[str, ...], Placement]:
@@ -112,32 +206,52 @@ def _steps(study: Study, participant: str, lap: int) -> tuple[Steps, tuple[str, 
     return steps, remarks, placement
 
 
-def _kept(
-    steps: Steps, participant: str, lap: int, condition: str, placement: Placement
-) -> pd.DataFrame:
+def _kept(steps: Steps, participant: str, lap: int, condition: str, placement: Placement) -> _Kept:
     on = helped(steps)
-    unknown = np.full(len(steps), np.nan)
+    numbers = {name: stream(steps, name).astype(np.float32) for name in POOLED}
+    unknown = np.full(len(steps), np.nan, dtype=np.float32)
     if not placement.on_course:
-        steps = steps.assign(x_m=np.nan, y_m=np.nan)
+        numbers |= {"x_m": unknown, "y_m": unknown}
+    numbers["helped"] = (unknown if on is None else on).astype(np.float32)
+    words = {
+        name: pa.array(steps[name], type=pa.string(), from_pandas=True).dictionary_encode()
+        for name in WORDS
+    }
+    return _Kept(participant, lap, condition, numbers, words)
+
+
+def _together(pooled: Sequence[_Kept]) -> pd.DataFrame:
+    if not pooled:
+        names = ["participant", "condition", *WORDS, "lap", *POOLED, "helped"]
+        return pd.DataFrame({name: pd.Series(dtype="float64") for name in names})
+    lengths = [len(kept.numbers["helped"]) for kept in pooled]
+    joined = {
+        name: np.concatenate([kept.numbers[name] for kept in pooled])
+        for name in (*POOLED, "helped")
+    }
     return pd.DataFrame(
         {
-            "participant": participant,
-            "lap": np.int16(lap),
-            "condition": condition,
-            **{name: stream(steps, name).astype(np.float32) for name in POOLED},
-            "helped": (unknown if on is None else on).astype(np.float32),
-            **{
-                name: pd.Categorical(steps[name].to_numpy(dtype=object))
-                for name in ("section", "section_kind")
-            },
+            "participant": _repeated([kept.participant for kept in pooled], lengths),
+            "lap": np.repeat(np.array([kept.lap for kept in pooled], dtype=np.int16), lengths),
+            "condition": _repeated([kept.condition for kept in pooled], lengths),
+            **joined,
+            **{name: _joined([kept.words[name] for kept in pooled]) for name in WORDS},
         }
     )
 
 
-def _together(pooled: Sequence[pd.DataFrame]) -> pd.DataFrame:
-    labels = ("participant", "condition", "section", "section_kind")
-    if not pooled:
-        names = [*labels, "lap", *POOLED, "helped"]
-        return pd.DataFrame({name: pd.Series(dtype="float64") for name in names})
-    frame = pd.concat(pooled, ignore_index=True)
-    return frame.astype(dict.fromkeys(labels, "category"))
+def _repeated(words: Sequence[str], lengths: Sequence[int]) -> "pd.Categorical[str]":
+    """Return a word for each lap as one for each of its steps."""
+    known = sorted(set(words))
+    place = {word: i for i, word in enumerate(known)}
+    codes = [place[word] for word in words]
+    return pd.Categorical.from_codes(np.repeat(codes, lengths), pd.Index(known))
+
+
+def _joined(words: Sequence[pa.DictionaryArray]) -> pd.Categorical:
+    """Return the words of all laps, their kinds sorted."""
+    one = pa.chunked_array(words).unify_dictionaries().combine_chunks()
+    found = pd.Categorical.from_codes(
+        pc.fill_null(one.indices, -1).to_numpy(), one.dictionary.to_pylist()
+    )
+    return found.reorder_categories(sorted(found.categories))

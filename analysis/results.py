@@ -112,8 +112,17 @@ class StudyResults:
     paper: pd.DataFrame
 
 
-def analyse(study: Study, progress: Progress | None = None) -> StudyResults:
+def analyse(study: Study, progress: Progress | None = None, jobs: int = 1) -> StudyResults:
     """Compute everything.
+
+    Parameters
+    ----------
+    study
+        The study.
+    progress
+        Told in a few words what is being done.
+    jobs
+        Number of processes for the steps of many laps; see ``analysis.processes.in_order``.
 
     Raises
     ------
@@ -121,7 +130,7 @@ def analyse(study: Study, progress: Progress | None = None) -> StudyResults:
         When the table of participants or of laps cannot be used.
     """
     frames = study_frames(study)
-    records = read_laps(frames, progress)
+    records = read_laps(frames, progress, jobs)
     if progress is not None:
         progress("Comparing conditions")
     lap_times = lap_time_comparisons(frames)

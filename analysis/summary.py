@@ -2,15 +2,18 @@
 
 import pandas as pd
 
-from analysis.comparisons import lap_time_comparisons
-from analysis.frames import study_frames
+from analysis.results import StudyResults
 from analysis.roles import reference_condition
 from analysis.tables.lap_times import lap_time_table
-from protocols.record.reader import Study
 
 
-def lap_summary(study: Study) -> pd.DataFrame:
+def lap_summary(results: StudyResults) -> pd.DataFrame:
     """Return one row per analysed condition, in the order of the laps.
+
+    Parameters
+    ----------
+    results
+        What the report was written from: nothing is computed a second time.
 
     Returns
     -------
@@ -20,11 +23,10 @@ def lap_summary(study: Study) -> pd.DataFrame:
         pairs; NaN for itself or when it cannot be computed); ``paper_mean_s`` (NaN where the
         paper has none).
     """
-    frames = study_frames(study)
-    table = lap_time_table(frames)
-    reference = reference_condition(frames.parts)
+    table = lap_time_table(results.frames)
+    reference = reference_condition(results.frames.parts)
     speedups: dict[str, float] = {}
-    for c in lap_time_comparisons(frames):
+    for c in results.lap_times:
         ratio = c.ratio_of_means
         if ratio is None or not ratio.computed:
             continue

@@ -25,7 +25,7 @@ class NobodyFinished:
     laps
         How many were begun.
     reason
-        What the record says, and the likely reason, in words.
+        What is in the record, and the likely reason, in words.
     """
 
     condition: str

@@ -2,10 +2,12 @@
 
     python bench/scale.py cores --participants 12 48 --jobs 1 2 --repeats 3
     python bench/scale.py cohort --participants 1000 --out DIR
+    python bench/scale.py writer --sessions 150 --out DIR
 
 The first runs whole studies by the command line, interleaved, and prints the median wall time and
 the speedup over one process. The second runs one study and its report while it watches their
-memory. Both write their rows with --json FILE. The tables in docs/scale.md were made with it.
+memory. The third writes one session over and over as the runner of a cluster does. All write their
+rows with --json FILE. The tables in docs/scale.md were made with it.
 """
 
 import argparse
@@ -23,6 +25,9 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 import psutil
+
+from harness.running.workers import Finished
+from harness.running.writer import AT_ONCE, Writer
 
 COMMAND = (sys.executable, "-c", "from harness.cli import main; main()")
 EVERY_S = 0.5
@@ -94,6 +99,38 @@ def cohort(arguments: argparse.Namespace) -> list[dict[str, Any]]:
     return rows
 
 
+def writer(arguments: argparse.Namespace) -> list[dict[str, Any]]:
+    """Feed the runner's writer with one recorded session over and over, as a cluster would.
+
+    Sessions are written one at a time, as they were before, and several at once; both in turn, on
+    the disk of ``--out``.
+    """
+    rate: dict[int, list[float]] = {1: [], AT_ONCE: []}
+    with tempfile.TemporaryDirectory(dir=arguments.out.parent) as folder:
+        run = _run(arguments, 1, 1, Path(folder) / "one")
+        subprocess.run(run, check=True)  # noqa: S603  # our own command
+        source = Path(folder) / "one" / "sessions" / "P0001"
+        files = {path.name: path.read_bytes() for path in source.iterdir()}
+        for _ in range(arguments.repeats):
+            for at_once, rates in rate.items():
+                out = Path(folder) / "study"
+                begun = time.perf_counter()
+                with Writer(out, at_once) as one:
+                    for number in range(arguments.sessions):
+                        one.write(f"P{number + 1:04d}", Finished(files, 1.0))
+                    one.wait()
+                rates.append(arguments.sessions / (time.perf_counter() - begun))
+                shutil.rmtree(out)
+    size = sum(map(len, files.values())) / MB
+    print(f"{arguments.sessions} sessions of {size:.1f} MB in {len(files)} files")
+    rows = []
+    for at_once, rates in rate.items():
+        print(f"{at_once} at a time: {statistics.median(rates):.0f} sessions a second "
+              f"({min(rates):.0f} to {max(rates):.0f})")  # fmt: skip
+        rows.append({"at_once": at_once, "sessions_per_s": statistics.median(rates), "all": rates})
+    return rows
+
+
 class _Look(NamedTuple):
     """Resident memory at one moment; pages that processes share count in each of them."""
 
@@ -156,15 +193,16 @@ def _run(arguments: argparse.Namespace, participants: int, jobs: int, out: Path)
 
 def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("what", choices=("cores", "cohort"))
+    parser.add_argument("what", choices=("cores", "cohort", "writer"))
     parser.add_argument("--participants", type=int, nargs="+", default=[12, 48])
     parser.add_argument("--jobs", type=int, nargs="+", default=[1, os.cpu_count() or 1])
     parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--sessions", type=int, default=150)
     parser.add_argument("--protocol", default="four-lap")
     parser.add_argument("--out", type=Path, default=Path("studies/cohort"))
     parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
-    arguments.measure = {"cores": cores, "cohort": cohort}[arguments.what]
+    arguments.measure = {"cores": cores, "cohort": cohort, "writer": writer}[arguments.what]
     if arguments.what == "cohort" and len(arguments.participants) != 1:
         parser.error("cohort takes one number of participants")
     return arguments

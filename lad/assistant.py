@@ -9,7 +9,7 @@ from lad.command import Command
 
 
 class Assistance(NamedTuple):
-    """What an assistant says in one step.
+    """What an assistant answers in one step.
 
     Attributes
     ----------

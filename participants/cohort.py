@@ -18,41 +18,47 @@ SEVERITY = "impairment_severity"
 
 @dataclass(frozen=True, slots=True)
 class Person:
-    """A synthetic participant.
+    """A participant, as far as we know them.
 
     Attributes
     ----------
     traits
-        How the person drives.
+        How the person drives; None for a living one.
     style
-        How the person answers questionnaires.
+        How the person answers questionnaires; None for a living one.
     age_years
-        Age.
+        Age; None until a living person has told it.
     gender, handedness
-        As the record has them.
+        As the record has them; None as for the age.
     impairment
         The protocol's impairment that this person has; None for none.
     """
 
-    traits: Traits
-    style: ResponseStyle
-    age_years: int
-    gender: str
-    handedness: str
+    traits: Traits | None
+    style: ResponseStyle | None
+    age_years: int | None
+    gender: str | None
+    handedness: str | None
     impairment: ImpairmentChoice | None = None
 
     def particulars(self) -> dict[str, int | str]:
         """Return what the person would enter on a form, by field."""
-        return {
+        known = {
             "age_years": self.age_years,
             "gender": self.gender,
             "handedness": self.handedness,
         }
+        return {name: value for name, value in known.items() if value is not None}
 
     def as_numbers(self) -> dict[str, float]:
         """Return every trait by name, for the record; units are part of the names."""
         severity = {} if self.impairment is None else {SEVERITY: self.impairment.severity}
-        return {**asdict(self.traits), **asdict(self.style), **severity}
+        known = [asdict(of) for of in (self.traits, self.style) if of is not None]
+        return {name: value for of in (*known, severity) for name, value in of.items()}
+
+    def living(self) -> "Person":
+        """Return a living person in this one's place: nothing is known but the impairment."""
+        return Person(None, None, None, None, None, self.impairment)
 
 
 def draw_person(cohort: Cohort, rng: np.random.Generator) -> Person:

@@ -1,5 +1,5 @@
 # ruff: noqa: PLR0917  # compiled code takes arrays apart from objects
-"""The Dynamic Window Approach: velocities the chair can reach, may drive, and likes best.
+"""The Dynamic Window Approach: the best of the velocities the chair can reach and may drive.
 
 Fox, Burgard & Thrun (1997), The dynamic window approach to collision avoidance, IEEE Robotics &
 Automation Magazine 4(1), 23-33.

@@ -50,7 +50,7 @@ def _fault(who: str, kind: type[Options], item: Any) -> str:
     if item["type"] == "extra_forbidden" and len(item["loc"]) == 1:
         allowed = ", ".join(kind.model_fields) or "it takes no options"
         return f"{who}: option {where!r} does not exist; allowed: {allowed}"
-    said = item["msg"].removeprefix("Value error, ")
+    message = item["msg"].removeprefix("Value error, ")
     if not where:
-        return f"{who}: {said}"
-    return f"{who}: option {where!r}: {said} (given {shown(item['input'])})"
+        return f"{who}: {message}"
+    return f"{who}: option {where!r}: {message} (given {shown(item['input'])})"

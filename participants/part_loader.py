@@ -1,7 +1,7 @@
 """Find the factory that a protocol names: a shipped part's, an installed one's, or one beside it.
 
-Nothing else can be named, and code beside a protocol file is run only when a person has said that
-it may be, and only as it was then.
+Nothing else can be named, and code beside a protocol file is run only when a person has confirmed
+that it may be, and only as it was then.
 """
 
 import sys

@@ -1,4 +1,4 @@
-"""Python code that lies beside a protocol file: which files it is, and what it says."""
+"""Python code beside a protocol file: which files it is, and a digest of its content."""
 
 import ast
 import hashlib
@@ -55,12 +55,12 @@ def code_digest(module: Path) -> str:
     OSError
         When one of the files cannot be read.
     """
-    said = hashlib.sha256()
+    digest = hashlib.sha256()
     for path in sorted(_with_imports(module)):
         content = path.read_bytes()
-        said.update(f"{path.name} {len(content)}\n".encode())
-        said.update(content)
-    return said.hexdigest()
+        digest.update(f"{path.name} {len(content)}\n".encode())
+        digest.update(content)
+    return digest.hexdigest()
 
 
 def _with_imports(module: Path) -> set[Path]:
@@ -75,12 +75,12 @@ def _with_imports(module: Path) -> set[Path]:
 
 
 def _imported(path: Path) -> Iterator[str]:
-    """Yield the first name of every module that a file imports, wherever in it that stands."""
+    """Yield the first name of every module that a file imports, anywhere in it."""
     with path.open("rb") as file:
         text = file.read(MAX_CODE_BYTES)
     try:
         tree = ast.parse(text)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):  # it is said when it is loaded
+    except (SyntaxError, ValueError, RecursionError, MemoryError):  # reported when it is loaded
         return
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):

@@ -32,6 +32,16 @@ class Text(FileModel):
 
 
 class Consent(Text):
-    """What a participant agrees to, and its version: the record says which one it was."""
+    """What a participant agrees to, and its version: the record says which one it was.
+
+    Attributes
+    ----------
+    version
+        Of the text.
+    sharing
+        Whether the text says that the data may be given to others; without it
+        ``lad-study export`` refuses living people's data.
+    """
 
     version: Annotated[str, Field(min_length=1, max_length=80)]
+    sharing: bool = False

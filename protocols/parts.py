@@ -1,4 +1,4 @@
-"""Where the parts that a protocol names come from. Nothing here runs anybody's code."""
+"""Where the parts that a protocol names come from. Nothing here runs a part's code."""
 
 from collections.abc import Iterator
 from importlib.metadata import EntryPoint, entry_points

@@ -10,8 +10,13 @@ from protocols.files.document import MAX_BYTES, Document, parse
 from protocols.files.errors import InputError
 from protocols.files.suggestion import allowed
 
-Kind = Literal["studies", "courses", "instruments"]
-_WORD = {"studies": "protocol", "courses": "course", "instruments": "instrument"}
+Kind = Literal["studies", "courses", "instruments", "mappings"]
+_WORD = {
+    "studies": "protocol",
+    "courses": "course",
+    "instruments": "instrument",
+    "mappings": "mapping",
+}
 _SUFFIXES = (".yaml", ".yml")
 
 
@@ -124,7 +129,7 @@ def shipped_text(name: str) -> str:
     InputError
         When no shipped file has this name; lists the names there are.
     """
-    kinds: tuple[Kind, ...] = ("studies", "courses", "instruments")
+    kinds: tuple[Kind, ...] = ("studies", "courses", "instruments", "mappings")
     for kind in kinds:
         if name in shipped_names(kind):
             return locate(kind, name).text().decode()

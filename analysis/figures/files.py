@@ -3,6 +3,8 @@
 import io
 
 import matplotlib as mpl
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 from analysis.figures.text import literal_text, make_literal
@@ -19,17 +21,26 @@ def settle(figure: Figure) -> None:
 
 
 def svg(figure: Figure) -> bytes:
-    """Return a settled figure as SVG, without a date and with reproducible ids."""
+    """Return a settled figure as SVG, without a date and with reproducible ids.
+
+    The canvas is asked itself: ``savefig`` would draw everything once more to lay it out.
+    """
     stream = io.BytesIO()
+    figure.set_dpi(DPI)
     reproducible = mpl.rc_context({"svg.hashsalt": "lad-study", "svg.fonttype": "path"})
     with reproducible, literal_text():
-        figure.savefig(stream, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
+        canvas = FigureCanvasSVG(figure)
+        canvas.print_svg(  # type: ignore[no-untyped-call]
+            stream, metadata={"Date": None, "Creator": None}
+        )
     return stream.getvalue()
 
 
 def png(figure: Figure) -> bytes:
     """Return a settled figure as PNG."""
     stream = io.BytesIO()
+    figure.set_dpi(DPI)
     with literal_text():
-        figure.savefig(stream, format="png", dpi=DPI, metadata={"Software": None})
+        canvas = FigureCanvasAgg(figure)
+        canvas.print_png(stream, metadata={"Software": None})  # type: ignore[no-untyped-call]
     return stream.getvalue()

@@ -1,4 +1,4 @@
-"""Text in figures is text: what people wrote stands as written, and where there is room for it."""
+"""Text in figures is text: it is drawn as it was written, where there is room for it."""
 
 import textwrap
 import warnings

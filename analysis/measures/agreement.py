@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from analysis.measures.streams import Numbers, Steps, command, helped
+from analysis.measures.streams import Numbers, Steps, command, helped, once_per_lap
 
 
 def agreement(steps: Steps) -> float:
@@ -29,6 +29,7 @@ def opposition(steps: Steps) -> float:
     return float((cosines < 0).mean()) if len(cosines) else float("nan")
 
 
+@once_per_lap
 def _cosines(steps: Steps) -> Numbers:
     on = helped(steps)
     if on is None:

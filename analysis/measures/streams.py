@@ -1,6 +1,10 @@
 """A lap's steps as measures use them: streams of numbers, missing where nothing was recorded."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import wraps
+from typing import Any, Concatenate, ParamSpec, TypeVar, cast
 
 import numpy as np
 import pandas as pd
@@ -18,7 +22,46 @@ BOUNDS = {"p_help": (0.0, 1.0)}
 Numbers = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
+P = ParamSpec("P")
+R = TypeVar("R")
 
+_AT_HAND: ContextVar[tuple[Steps, dict[Any, Any]] | None] = ContextVar("at_hand", default=None)
+"""The step table that is being measured, and what has been worked out of it."""
+
+
+@contextmanager
+def at_hand(steps: Steps) -> Iterator[None]:
+    """Have a lap's streams worked out once each meanwhile, however many measures ask for them.
+
+    The measures give the same without it. The step table must not change meanwhile.
+    """
+    token = _AT_HAND.set((steps, {}))
+    try:
+        yield
+    finally:
+        _AT_HAND.reset(token)
+
+
+def once_per_lap(
+    function: Callable[Concatenate[Steps, P], R],
+) -> Callable[Concatenate[Steps, P], R]:
+    """Keep what a function of a step table answers while the table is at hand."""
+
+    @wraps(function)
+    def answer(steps: Steps, *args: P.args, **kwargs: P.kwargs) -> R:
+        now = _AT_HAND.get()
+        if now is None or now[0] is not steps:
+            return function(steps, *args, **kwargs)
+        known, key = now[1], (function, args, tuple(kwargs.items()))
+        if key not in known:
+            known[key] = function(steps, *args, **kwargs)
+        kept: R = known[key]
+        return kept
+
+    return cast("Callable[Concatenate[Steps, P], R]", answer)
+
+
+@once_per_lap
 def stream(steps: Steps, name: str) -> Numbers:
     """Return a column as numbers; all NaN when it was not recorded.
 
@@ -29,6 +72,7 @@ def stream(steps: Steps, name: str) -> Numbers:
     return np.where(wrong, np.nan, values) if wrong.any() else values
 
 
+@once_per_lap
 def period(steps: Steps) -> float:
     """Return the length of a control step in s.
 
@@ -85,6 +129,7 @@ def _out_of_bounds(values: Numbers, name: str) -> Flags:
     return np.asarray((values < low) | (values > high))
 
 
+@once_per_lap
 def helped(steps: Steps) -> Flags | None:
     """Return in which steps an assistant's command counted; None when control was not recorded."""
     if "control" not in steps or len(steps) == 0:
@@ -93,6 +138,7 @@ def helped(steps: Steps) -> Flags | None:
     return None if pd.isna(control).any() else np.asarray(control != "driver", dtype=np.bool_)
 
 
+@once_per_lap
 def would_help(steps: Steps) -> Flags | None:
     """Return in which steps the shadow demonstrator would help; None when it was not recorded."""
     h = stream(steps, "h_would")
@@ -101,6 +147,7 @@ def would_help(steps: Steps) -> Flags | None:
     return np.asarray(h > 0)
 
 
+@once_per_lap
 def command(steps: Steps, who: str) -> Numbers:
     """Return commands in shares of full deflection.
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from analysis.figures.files import png, settle, svg
 from analysis.report.page import build_page
 from analysis.report.render import render
-from analysis.results import analyse
+from analysis.results import StudyResults, analyse
 from analysis.statistics import statistics_json
 from analysis.tables.csv_file import csv_file
 from protocols.files.errors import InputError
@@ -41,15 +41,25 @@ def write_report(study_dir: Path, progress: Callable[[str], None] | None = None)
     InputError
         When the directory is not a study, holds no session, cannot be used or cannot be written.
     """
+    return write_results(analyse(open_study(Path(study_dir)), progress), progress)
+
+
+def write_results(results: StudyResults, progress: Callable[[str], None] | None = None) -> Path:
+    """Write the report of a study that is analysed already; see ``write_report``.
+
+    Raises
+    ------
+    InputError
+        When the report cannot be written.
+    """
     tell = progress or (lambda _: None)
-    study_dir = Path(study_dir)
-    results = analyse(open_study(study_dir), tell)
+    study_dir = results.frames.study.folder
     tell("Drawing figures")
     page = build_page(results)
+    svgs, pngs = {}, {}
     for picture in page.pictures:
         settle(picture.figure)
-    svgs = {picture.name: svg(picture.figure) for picture in page.pictures}
-    pngs = {picture.name: png(picture.figure) for picture in page.pictures}
+        svgs[picture.name], pngs[picture.name] = svg(picture.figure), png(picture.figure)
     tables = {t.name: csv_file(t.frame) for t in page.tables}
     tell("Writing the report")
     contents: dict[str, bytes] = {
@@ -79,7 +89,7 @@ def replace_folder(target: Path, contents: dict[str, bytes]) -> None:
     partial = partial_beside(target)
     aside = partial_beside(target.with_name(f"old-{target.name}"))
     for leftover in (partial, aside):
-        shutil.rmtree(leftover, ignore_errors=True)
+        _remove(leftover)
     try:
         for name, content in contents.items():
             path = partial / name
@@ -93,4 +103,12 @@ def replace_folder(target: Path, contents: dict[str, bytes]) -> None:
         if aside.exists() and not target.exists():
             aside.rename(target)
         raise
-    shutil.rmtree(aside, ignore_errors=True)
+    _remove(aside)
+
+
+def _remove(path: Path) -> None:
+    """Remove a folder; of a link to one, the link."""
+    if path.is_symlink():
+        path.unlink(missing_ok=True)
+    else:
+        shutil.rmtree(path, ignore_errors=True)

@@ -111,7 +111,9 @@ class PairTrack:
 
 def person_traits(cohort: Cohort, seed: int, number: int) -> Traits:
     """Return the traits of a participant of the study, the same as its sessions draw."""
-    return draw_person(cohort, generator(seed, number, "person")).traits
+    traits = draw_person(cohort, generator(seed, number, "person")).traits
+    assert traits is not None
+    return traits
 
 
 def patient(traits: Traits) -> Traits:

@@ -1,7 +1,12 @@
 """Joins the commands, and turns faulty input into one line and exit code 2."""
 
+import errno
+import signal
 import sys
+from contextlib import suppress
 from importlib.metadata import version
+from io import TextIOWrapper
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -10,6 +15,8 @@ from typer.exceptions import TyperException
 from harness.cli import (
     check,
     check_part,
+    export,
+    imports,
     listing,
     live,
     power,
@@ -22,6 +29,7 @@ from harness.cli import (
     validate,
 )
 from protocols.files.errors import InputError
+from protocols.files.scalars import short
 
 app = typer.Typer(
     name="lad-study",
@@ -66,6 +74,8 @@ app.command("live")(live.live)
 app.command("report")(report.report)
 app.command("reproduce")(reproduce.reproduce)
 app.command("replay")(replay.replay)
+app.command("export")(export.export)
+app.add_typer(imports.app, name="import")
 app.command("power")(power.power)
 app.command("preregister")(preregister.preregister)
 app.command("validate")(validate.validate)
@@ -77,13 +87,22 @@ app.command("courses")(listing.courses)
 app.command("show")(listing.show)
 
 
+_IMPOSSIBLE_PATHS = (errno.ENAMETOOLONG, errno.ELOOP)
+"""Errors of the system about a path that nothing can have: the path was an input."""
+
 _INTERRUPTED = 130
 """What typer returns for a command that Ctrl-C has ended; no command here returns it."""
 
 
 def main() -> None:
     """Run the command line and exit with its code."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):  # where a terminal knows ASCII alone
+            stream.reconfigure(errors="backslashreplace")
+    with suppress(ValueError):  # not in the main thread, where no signal can be asked for
+        signal.signal(signal.SIGTERM, _stopped)
     try:
+        _refuse_no_folder()
         code = app(prog_name="lad-study", standalone_mode=False)
     except InputError as fault:
         code = _say(str(fault), 2)
@@ -93,11 +112,31 @@ def main() -> None:
         code = _say(f"{where}: {fault.format_message()}", 2)
     except KeyboardInterrupt:
         code = _INTERRUPTED
+    except _TerminatedError:
+        code = _say("lad-study: stopped by SIGTERM. What was finished is kept.", 143)
     except OSError as fault:
-        code = _say(f"lad-study: {fault.strerror or fault}: {fault.filename or ''}".rstrip(": "), 1)
+        said = f"lad-study: {fault.strerror or fault}: {short(str(fault.filename or ''), 200)}"
+        code = _say(said.rstrip(": "), 2 if fault.errno in _IMPOSSIBLE_PATHS else 1)
     if code == _INTERRUPTED:
         code = _say("lad-study: stopped. What was finished is kept.", 1)
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _refuse_no_folder() -> None:
+    """Refuse to work where nothing can be found or put: the folder one is in was removed."""
+    try:
+        Path.cwd()
+    except FileNotFoundError:
+        raise InputError("the working directory is not there any more; go to another") from None
+
+
+class _TerminatedError(BaseException):
+    """The process was asked to end: what is open is closed, and nothing is left behind."""
+
+
+def _stopped(_number: int, _frame: object) -> None:
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # a second one ends it at once
+    raise _TerminatedError
 
 
 def _say(message: str, code: int) -> int:

@@ -34,6 +34,9 @@ def live(
     links: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Write the links as JSON.")
     ] = None,
+    trust: Annotated[
+        bool, typer.Option("--trust", help="Allow the code beside the protocol file, as it is now.")
+    ] = False,
     no_report: Annotated[bool, typer.Option("--no-report", help="Only the record.")] = False,
 ) -> int:
     """Run a study with living people: participant, demonstrator, experimenter in browsers.
@@ -50,10 +53,12 @@ def live(
         from harness.live.serve import Address, serve_study
     except ModuleNotFoundError as missing:
         raise InputError(f"lad-study live: {EXTRA} ({missing.name} is missing)") from None
+    from harness.cli.trust import trusted_study
     from harness.session.study_run import StudyRun
     from protocols.load import resolve_study
 
     study = resolve_study(protocol, participants=participants)
+    study = trusted_study(study, asked=trust)
     folder = out or Path("studies") / f"{study.protocol.name}-live"
     address = Address(port=port, lan=lan, public_origin=public_origin)
     finished = serve_study(StudyRun(study, seed), folder, address, say, seats=seats, links=links)

@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from harness.cli.console import progress_line, say
+from harness.cli.options import cores
 
 
 def report(
@@ -18,8 +19,10 @@ def report(
 
     Example: lad-study report studies/four-lap-seed0
     """
-    from analysis.report import write_report
+    from analysis.report.write import write_results
+    from analysis.results import analyse
+    from protocols.record.reader import open_study
 
     with progress_line() as tell:
-        page = write_report(study, tell)
+        page = write_results(analyse(open_study(study), tell, cores()), tell)
     say(f"Report: {page}")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from rich import box
 from rich.table import Table
 
-from harness.cli.console import OUT
+from harness.cli.console import print_table
 
 if TYPE_CHECKING:
     from analysis.reproduction.row import Row
@@ -19,7 +19,7 @@ def print_rows(rows: "Sequence[Row]") -> None:
     table = Table(box=box.SIMPLE_HEAD, title="The paper and ours", title_justify="left")
     table.add_column("quantity", no_wrap=True)
     for heading in ("unit", "paper", "ours", "n", "verdict"):
-        table.add_column(heading, justify="right")
+        table.add_column(heading, justify="right", no_wrap=True)
     for row in rows:
         if row.paper is None and row.tolerance is None:
             continue
@@ -31,4 +31,4 @@ def print_rows(rows: "Sequence[Row]") -> None:
             str(row.n),
             VERDICT_TEXT[row.verdict],
         )
-    OUT.print(table)
+    print_table(table)

@@ -147,10 +147,13 @@ def _say_what_nobody_finished(folder: Path) -> None:
 
 
 def _report(folder: Path) -> None:
-    from analysis.report import write_report
+    from analysis.report.write import write_results
+    from analysis.results import analyse
     from harness.cli.lap_time_table import print_lap_times
+    from protocols.record.reader import open_study
 
     with progress_line() as tell:
-        page = write_report(folder, tell)
-    print_lap_times(folder)
+        results = analyse(open_study(folder), tell, cores())
+        page = write_results(results, tell)
+    print_lap_times(results)
     say(f"Report: {page}")

@@ -1,4 +1,4 @@
-"""Whether a protocol's own code may be run: a person says so, once for each file and content."""
+"""Whether a protocol's own code may be run: a person allows it, once for each file and content."""
 
 import json
 from collections.abc import Iterable, Mapping
@@ -21,7 +21,7 @@ def trusted_study(study: ResolvedStudy, *, asked: bool) -> ResolvedStudy:
     Parameters
     ----------
     study
-        As its protocol file says it.
+        As it is in its protocol file.
     asked
         Whether the command was given ``--trust``: the code is then trusted from now on, as it is.
 
@@ -35,9 +35,9 @@ def trusted_study(study: ResolvedStudy, *, asked: bool) -> ResolvedStudy:
     if new and not asked:
         raise InputError(*(_refusal(part) for part in new))
     installed = installed_parts(study.protocol, study.beside)
-    told = [*_files(study.beside), *(f"{use} of {package}" for use, package in installed.items())]
-    if told:
-        complain(f"Runs code that is not this program's: {', '.join(told)}")
+    names = [*_files(study.beside), *(f"{use} of {package}" for use, package in installed.items())]
+    if names:
+        complain(f"Runs code that is not this program's: {', '.join(names)}")
     if new:
         _write(known, new)
     return replace(study, trusted=True)

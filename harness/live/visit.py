@@ -21,6 +21,7 @@ from harness.session.replay import (
     ReplayedDriver,
     ReplayedReader,
     ReplayedRespondent,
+    events_of,
     is_next,
 )
 from harness.session.session import Session
@@ -32,7 +33,7 @@ from participants.live.demonstrator import LiveDemonstrator
 from participants.live.pages import LiveReader, LiveRespondent
 from participants.live.seat import Request
 from protocols.record.journal import journal_header, read_journal
-from protocols.record.rows import EventRow, LapRow, participant_id
+from protocols.record.rows import LapRow, participant_id
 from protocols.record.session import SessionRecord
 from protocols.record.sessions import model_before
 
@@ -305,7 +306,6 @@ class Visit:
 
     def _visit(self) -> SessionRecord:
         run, name = self._run, self.name
-        self._journal = FileJournal(self._path, journal_header(run.study, run.seed, name))
         seats = Seats(
             self.participant if self._living.participant else None,
             _DemonstratorsSeat(self) if self._living.demonstrator else None,
@@ -313,6 +313,8 @@ class Visit:
         world = self._make_world()
         lent = replace(run, previous=model_before(self._path.parents[1], self._number))
         parts = make_all_parts(lent, self._number, world, seats)
+        header = journal_header(run.study, run.seed, name, kind_of(parts.lap.driver))
+        self._journal = FileJournal(self._path, header)
         people, clock = self._with_journal(parts, self._journal)
         session = Session(
             run, self._number, world, people,
@@ -332,7 +334,7 @@ class Visit:
         self._stage = None
         journal, self._journal = self._journal, None  # what comes later is not the session's
         journal.close()
-        return replace(session.record(), events=events_of(self._path, name))
+        return replace(session.record(), events=events_of(read_journal(self._path)))
 
     def _fit(self) -> bool:
         """Have the participant's machine checked; tell whether the session may begin."""
@@ -363,7 +365,7 @@ class Visit:
         """Return parts and a clock that first repeat what an earlier process has noted."""
         driver, demonstrator = parts.lap.driver, parts.lap.demonstrator
         if kind_of(driver) == "live":
-            driver = ReplayedDriver(journal, driver, driver)
+            driver = ReplayedDriver(journal, "live", driver)
         if isinstance(demonstrator, LiveDemonstrator):
             demonstrator = ReplayedDemonstrator(journal, demonstrator)
         respondent, reader = parts.respondent, parts.reader
@@ -420,11 +422,3 @@ def _driven(step: Step) -> dict[str, Any]:
         "input_age_s": step.input_age_s,
         "clearance_m": step.result.clearance_m,
     }
-
-
-def events_of(path: Path, participant: str) -> tuple[EventRow, ...]:
-    """Return the events that a journal holds."""
-    entries = read_journal(path).entries
-    return tuple(
-        EventRow(participant=participant, **entry["event"]) for entry in entries if "event" in entry
-    )

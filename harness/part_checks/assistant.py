@@ -69,11 +69,13 @@ def _forgets_the_lap(source: PartSource, setting: Setting, evidence: Evidence) -
     if len(evidence.recorded) < 2 or evidence.first.fault is not None:
         return CheckResult(RESET, "not checked", "it did not get through its laps", allowed)
     if evidence.first.plain() != evidence.again.plain():
-        return CheckResult(RESET, "not checked", "it answers otherwise each time", allowed)
+        return CheckResult(RESET, "not checked", "it answers differently each time", allowed)
     part, lap = _taught(source, setting, evidence), evidence.recorded[1:2]
     once, twice = (play(ASSISTANT, part, lap, setting.seed, first) for first in (1, 2))
     where = first_difference(once.plain(), twice.plain())
-    fault = None if where is None else f"shown again, a lap is answered otherwise, first in {where}"
+    fault = (
+        None if where is None else f"shown again, a lap is answered differently, first in {where}"
+    )
     return CheckResult.of(RESET, fault, f"{len(lap[0])} answers are the same twice", allowed)
 
 
@@ -86,7 +88,7 @@ def _is_saved(source: PartSource, setting: Setting, evidence: Evidence) -> Check
     if evidence.first.fault is not None or len(evidence.recorded) < 2:
         return CheckResult(SAVING, "not checked", "it did not get through its laps", allowed)
     if evidence.first.plain() != evidence.again.plain():
-        return CheckResult(SAVING, "not checked", "it answers otherwise each time", allowed)
+        return CheckResult(SAVING, "not checked", "it answers differently each time", allowed)
     part = _taught(source, setting, evidence)
     if not callable(getattr(part, "to_bytes", None)):
         found = "it has no to_bytes: a session is kept without the model"
@@ -121,12 +123,12 @@ def _saving_fault(
         found += ", a model loaded from them answers the same"
     unsaved = play(ASSISTANT, twin, lap, setting.seed, first=1).plain()
     if play(ASSISTANT, part, lap, setting.seed, first=1).plain() != unsaved:
-        return "after to_bytes it answers otherwise", found
+        return "after to_bytes it answers differently", found
     if loaded is not None:
         again = play(ASSISTANT, loaded, lap, setting.seed, first=1)
         where = again.fault or first_difference(unsaved, again.plain())
         if where is not None:
-            return f"loaded by from_bytes it answers otherwise, first: {where}", found
+            return f"loaded by from_bytes it answers differently, first: {where}", found
     if twin.to_bytes() != part.to_bytes():
         return "two models made and taught alike are saved as other bytes", found
     return None, found

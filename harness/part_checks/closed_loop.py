@@ -42,7 +42,7 @@ class LapPlan:
 
     @property
     def limitation(self) -> Limitation:
-        """What the study does to the driver's command."""
+        """The limitation of the driver's command."""
         return right_turn_limit(LIMIT) if self.limited else unlimited
 
 
@@ -55,12 +55,12 @@ PLANS: Mapping[RoleName, tuple[LapPlan, ...]] = {
     "demonstrator": (LapPlan(limited=True, assistant="demonstrator"), LapPlan(limited=True)),
 }
 """What each role goes through. A driver's first two laps are alike, so that they can be compared;
-in a demonstrator's second lap nobody listens to it."""
+in a demonstrator's second lap its answers do not count."""
 
 
 @dataclass(slots=True)
 class Driven:
-    """Laps as they went.
+    """Laps that were driven.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ def bullet_world(setting: Setting) -> Iterator[World]:
 def reference_laps(setting: Setting) -> tuple[tuple[Moment, ...], ...]:
     """Return two laps of the autonomous driver: one in which it is helped, one without help.
 
-    The first one teaches; nobody is under check in them.
+    The first one teaches; no part is checked in them.
     """
     plans = (_TAUGHT, LapPlan(limited=True))
     with bullet_world(setting) as world:
@@ -120,7 +120,7 @@ def drive(
     role, part
         What is checked.
     world
-        Of the setting's course. It stands at the start afterwards.
+        Of the setting's course. Afterwards the chair is at the start.
     setting
         Course, period and seed.
     plans

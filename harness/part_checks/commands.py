@@ -1,4 +1,4 @@
-"""Whether what a part answers is something a lap can go on with."""
+"""Whether a lap can use what a part answers."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence

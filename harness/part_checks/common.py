@@ -29,7 +29,7 @@ def goes_through_laps(
     steps = sum(map(len, laps))
     found = f"{steps} steps of {len(laps)} laps without an error"
     wrong = str(fault) if fault is not None else None
-    allowed = "no error, but a WithdrewError of who leaves" if drives else "no error"
+    allowed = "no error, except a WithdrewError of a driver who leaves" if drives else "no error"
     return CheckResult.of(LAPS, wrong, found, allowed)
 
 

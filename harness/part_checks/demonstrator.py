@@ -1,4 +1,4 @@
-"""Check a demonstrator: it sees the room, helps, and as a shadow does the same for nobody."""
+"""Check a demonstrator: it sees the room, helps, and does the same as a shadow."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial

@@ -19,7 +19,7 @@ in the same time. People learn and vary, so the laps need not be equal; a driver
 reset gets nowhere."""
 
 LEAST_WAY = 0.5
-"""Below this, m, a first lap says nothing about how far a driver gets."""
+"""A first lap shorter than this, m, does not show how far a driver gets."""
 
 
 def check_driver(
@@ -28,7 +28,7 @@ def check_driver(
     """Put a driver through what a study will ask of it.
 
     Three laps in the Bullet world, the same laps again from a recording, and once more in another
-    process; the docs page on one's own parts explains each check.
+    process; docs/extending.md explains each check.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def _own(_source: PartSource, setting: Setting, evidence: Evidence) -> Iterator[
 
 
 def drives_again(setting: Setting, evidence: Evidence) -> CheckResult:
-    """Check that a driver gets along in its second lap, whatever the first one left behind."""
+    """Check that a driver still drives in its second lap, with all that the first one left."""
     allowed = f"a second lap, begun like the first, gets {HALF:.0%} as far in the same time"
     raised = raised_later(evidence, allowed)
     if raised is not None:

@@ -97,7 +97,7 @@ def _fault(here: There, there: There | Died) -> str | None:
         return there.fault
     where = first_difference(here.answers, there.answers)
     if where is not None:
-        return f"it answers otherwise there, first in {where}"
+        return f"it answers differently there, first in {where}"
     if here.saved is not None and here.saved != there.saved:
         return "it is saved as other bytes there"
     return None

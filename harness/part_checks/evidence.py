@@ -27,7 +27,7 @@ class Evidence:
         Laps in which a third one took its place.
     repeated
         What a fourth one answers when it is shown what the third one was shown, while the world
-        stands at the start.
+        is at the start.
     saved
         The bytes of ``first`` after that, if it is saved and ``again`` is saved as the same.
     """
@@ -80,5 +80,5 @@ def saved_if_possible(part: Any) -> bytes | None:
     """Return the part's bytes; None where it has none, or cannot give them."""
     try:
         return saved(part)
-    except (Exception, SystemExit):  # noqa: BLE001  # the check of saving says what is wrong
+    except (Exception, SystemExit):  # noqa: BLE001  # the check of saving reports what is wrong
         return None

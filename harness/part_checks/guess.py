@@ -1,4 +1,4 @@
-"""Which role a part is for, where it is not said: from its name, or from what its factory makes."""
+"""Which role a part is for, where none is given: from its name, or from what its factory makes."""
 
 import contextlib
 from collections.abc import Mapping
@@ -27,7 +27,7 @@ def guess_role(part: str, options: Mapping[str, Any], setting: Setting) -> RoleN
     Raises
     ------
     InputError
-        When there is no such part, or it fits no role: then it has to be said.
+        When there is no such part, or it fits no role: then the role must be given.
 
     Examples
     --------
@@ -48,13 +48,12 @@ def guess_role(part: str, options: Mapping[str, Any], setting: Setting) -> RoleN
     if refusals:
         raise refusals[0]
     raise InputError(
-        f"part {part!r}: what it makes does not show what it is for; say --role "
-        f"{'|'.join(ROLE_NAMES)}"
+        f"part {part!r}: what it makes does not show its role; give --role {'|'.join(ROLE_NAMES)}"
     )
 
 
 def _fits(role: Role, source: PartSource, setting: Setting, refusals: list[InputError]) -> bool:
-    """Tell whether a factory makes a part of a role; what it says against its options is kept."""
+    """Return whether a factory makes a part of a role; its message about options is kept."""
     try:
         part = source.make(role, setting)
     except InputError as refusal:

@@ -1,4 +1,4 @@
-"""Check an impairment: a driver around a driver, who stays what it is."""
+"""Check an impairment: a driver around a driver, which stays the same kind of participant."""
 
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
@@ -61,7 +61,7 @@ def check_impairment(
 
 
 class _Observed:
-    """A driver that notes how it is treated; it has nothing new to say in every third step."""
+    """A driver that notes how it is treated; it has no new command in every third step."""
 
     kind: ParticipantKind = "scripted"
 
@@ -69,7 +69,7 @@ class _Observed:
         self._silent, self._leaves_at = silent, leaves_at
         self.laps: list[tuple[int, str]] = []
         self.seen: list[Sight] = []
-        self.said: Command | None = None
+        self.given: Command | None = None
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:
         self.laps.append((lap, repr(rng.bit_generator.state)))
@@ -80,8 +80,10 @@ class _Observed:
             raise WithdrewError("that is enough")
         n = len(self.seen)
         swing = (n % STEPS) / STEPS
-        self.said = None if self._silent and n % 3 == 0 else Command(0.6 * swing, 0.4 - 0.6 * swing)
-        return self.said
+        self.given = (
+            None if self._silent and n % 3 == 0 else Command(0.6 * swing, 0.4 - 0.6 * swing)
+        )
+        return self.given
 
 
 def _own(source: PartSource, setting: Setting, evidence: Evidence) -> Iterator[CheckResult]:
@@ -107,12 +109,12 @@ def _own(source: PartSource, setting: Setting, evidence: Evidence) -> Iterator[C
 def _through(
     source: PartSource, setting: Setting, evidence: Evidence, driver: _Observed, severity: float
 ) -> tuple[Any, list[tuple[Any, Command | None]]]:
-    """Return the impaired driver, and per step its answer, and what its driver said."""
+    """Return the impaired driver, and per step its answer, and what its driver gave."""
     setup = impairment_setup(dict(source.options), setting, driver, severity)
     impaired = source.factory(setup)
     impaired.start_lap(0, _lap_numbers(setting))
     sights = [moment.sight for moment in _sights(evidence)]
-    return impaired, [(impaired.act(sight), driver.said) for sight in sights]
+    return impaired, [(impaired.act(sight), driver.given) for sight in sights]
 
 
 def _sights(evidence: Evidence) -> Any:
@@ -139,7 +141,7 @@ def _around(source: PartSource, setting: Setting, evidence: Evidence) -> str | N
     if plain(driver.seen) != plain(shown):
         return "its driver is shown something else than there is to see"
     if kind_of(impaired) != driver.kind:
-        return f"around a {driver.kind} driver it says that it is {kind_of(impaired)}"
+        return f"around a {driver.kind} driver its kind is {kind_of(impaired)}"
     return _keeps_from_leaving(source, setting, evidence)
 
 
@@ -159,7 +161,7 @@ def _silent(source: PartSource, setting: Setting, evidence: Evidence) -> str | N
 
 def _severity_0(source: PartSource, setting: Setting, evidence: Evidence) -> str | None:
     _, answers = _through(source, setting, evidence, _Observed(silent=False), 0.0)
-    for step, (given, said) in enumerate(answers, 1):
-        if given is None or said is None or not np.allclose(given, said, rtol=0, atol=1e-9):
-            return f"in step {step}, {said} becomes {given}"
+    for step, (given, inner) in enumerate(answers, 1):
+        if given is None or inner is None or not np.allclose(given, inner, rtol=0, atol=1e-9):
+            return f"in step {step}, {inner} becomes {given}"
     return None

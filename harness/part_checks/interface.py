@@ -11,7 +11,7 @@ NAME = "interface"
 
 
 def interface(role: Role, part: Any) -> CheckResult:
-    """Check a part's methods and, of what drives, what kind of participant it says it is."""
+    """Check a part's methods and, of a driver or impairment, its kind of participant."""
     signatures = {name: f"{name}({given})" for name, given in role.signatures.items()}
     fault = missing(part, role.signatures) or _wrong_kind(role, part)
     found = f"{type(part).__name__} with {', '.join(signatures.values())}"

@@ -32,7 +32,7 @@ def made_and_fitting(role: Role, source: PartSource, setting: Setting) -> tuple[
     Raises
     ------
     InputError
-        When the part says so itself: it does not take these options.
+        When the part itself refuses these options.
     """
     try:
         part = source.make(role, setting)
@@ -93,9 +93,9 @@ def check_lap_part(
 
 
 def _laps(role: Role, evidence: Evidence, answers: CheckResult) -> CheckResult:
-    """Say what was raised in the first lap; in a later one, it is the check of ``RESET`` that does.
+    """Report what was raised in the first lap; for later ones the check of ``RESET`` does.
 
-    An error that a wrong answer causes in the lap's own code is not told twice.
+    An error that a wrong answer causes in the lap's own code is not reported twice.
     """
     fault, laps = evidence.driven.fault, evidence.driven.answers
     raised = fault if fault and fault.lap == 0 else None
@@ -107,7 +107,7 @@ def _laps(role: Role, evidence: Evidence, answers: CheckResult) -> CheckResult:
 
 
 def raised_later(evidence: Evidence, allowed: str) -> CheckResult | None:
-    """Return what ``RESET`` says about a part that raised something; None when it did not."""
+    """Return the result of ``RESET`` for a part that raised something; None when it did not."""
     fault = evidence.driven.fault
     if fault is None:
         return None

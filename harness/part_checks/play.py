@@ -1,4 +1,4 @@
-"""Show a part what was recorded, and keep what it answers: no world is there to be looked at."""
+"""Show a part what was recorded, and keep what it answers: there is no world."""
 
 import time
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ from harness.session.seeds import generator
 from participants.driver import WithdrewError
 
 BUDGET_S = 10.0
-"""A lap that takes longer than this to answer is cut: the part is too slow, and that is said."""
+"""A lap that takes longer than this to answer is cut: the part is too slow, and the check fails."""
 
 
 @dataclass(slots=True)

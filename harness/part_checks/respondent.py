@@ -21,7 +21,7 @@ from participants.survey import LapExperience, Question
 QUESTIONNAIRES = "questionnaires"
 ANSWERS = "answers"
 
-LIVED = (
+EXPERIENCES = (
     LapExperience(61.0, None, 0.0, 0, 0.0, 0, True),
     LapExperience(74.0, 61.0, 0.0, 0, 0.0, 2, True),
     LapExperience(66.0, 61.0, 0.21, 3, 0.02, 0, True),
@@ -29,7 +29,7 @@ LIVED = (
     LapExperience(300.0, 61.0, 0.4, 40, 0.3, 12, False),
     LapExperience(0.1, 61.0, 0.0, 0, 0.0, 1, False),
 )
-"""Laps to be asked about: one's own baseline, a bad one, one with help, one that was all help, one
+"""Laps to be asked about: the own baseline, a bad one, one with help, one that was all help, one
 that ran out of time, and one that was left at once."""
 
 
@@ -80,11 +80,11 @@ def check_respondent(
 
 
 def surveys_of(setting: Setting) -> Laps:
-    """Return a questionnaire about each lap of ``LIVED``, each with random numbers of its own."""
+    """Return a questionnaire about each of ``EXPERIENCES``, with random numbers of its own."""
     questions = questions_of(setting)
     return [
-        [Survey(questions, lived, generator(setting.seed, PARTICIPANT, f"lap {lap}/survey"))]
-        for lap, lived in enumerate(LIVED)
+        [Survey(questions, experience, generator(setting.seed, PARTICIPANT, f"lap {lap}/survey"))]
+        for lap, experience in enumerate(EXPERIENCES)
     ]
 
 

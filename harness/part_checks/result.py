@@ -16,7 +16,7 @@ class CheckResult:
         What was looked at, in a few words.
     state
         Not checked: another check's failure leaves nothing to look at, or the part cannot be
-        looked at in this way; ``found`` says which.
+        looked at in this way; ``found`` has the reason.
     found
         What the part did.
     allowed

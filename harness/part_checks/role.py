@@ -51,7 +51,7 @@ class Role:
 
 
 def driver_setup(options: dict[str, Any], setting: Setting) -> DriverSetup:
-    """Return what a driver is made of: the course, and the traits of the median person."""
+    """Return what a driver is made from: the course, and the traits of the median person."""
     rng = generator(setting.seed, PARTICIPANT, "driver")
     return DriverSetup(setting.course, rng, typical_traits(), options)
 
@@ -59,7 +59,7 @@ def driver_setup(options: dict[str, Any], setting: Setting) -> DriverSetup:
 def impairment_setup(
     options: dict[str, Any], setting: Setting, driver: Any = None, severity: float = SEVERITY
 ) -> ImpairmentSetup:
-    """Return what an impairment is made of; around the autonomous driver unless one is given."""
+    """Return what an impairment is made from; around the autonomous driver unless one is given."""
     if driver is None:
         driver = make_driver("autonomous", driver_setup({}, setting))
     rng = generator(setting.seed, PARTICIPANT, "impairment")
@@ -67,19 +67,19 @@ def impairment_setup(
 
 
 def demonstrator_setup(options: dict[str, Any], setting: Setting) -> DemonstratorSetup:
-    """Return what a demonstrator is made of."""
+    """Return what a demonstrator is made from."""
     rng = generator(setting.seed, PARTICIPANT, "demonstrator")
     return DemonstratorSetup(setting.course, rng, options)
 
 
 def respondent_setup(options: dict[str, Any], setting: Setting) -> RespondentSetup:
-    """Return what a respondent is made of."""
+    """Return what a respondent is made from."""
     rng = generator(setting.seed, PARTICIPANT, "respondent")
     return RespondentSetup(questions_of(setting), rng, None, options)
 
 
 def questions_of(setting: Setting) -> tuple[Question, ...]:
-    """Return every item of the setting's instrument, as a respondent gets to know it."""
+    """Return every item of the setting's instrument, as a respondent reads it."""
     return tuple(question(setting.instrument, item) for item in setting.instrument.items)
 
 
@@ -130,10 +130,10 @@ DEMONSTRATOR = Role(
 RESPONDENT = Role(
     name="respondent",
     shipped=RESPONDENTS,
-    signatures={"answer": "questions, lived, rng"},
+    signatures={"answer": "questions, experience, rng"},
     make=lambda factory, options, setting: factory(respondent_setup(options, setting)),
     start=lambda _part, _lap, _rng: None,
-    ask=lambda part, survey: part.answer(survey.questions, survey.lived, survey.rng),
+    ask=lambda part, survey: part.answer(survey.questions, survey.experience, survey.rng),
 )
 ROLES: Mapping[RoleName, Role] = {
     role.name: role for role in (DRIVER, ASSISTANT, DEMONSTRATOR, RESPONDENT, IMPAIRMENT)

@@ -31,7 +31,7 @@ class Setting:
     period
         Length of a control step, s.
     seed
-        From which every draw comes; 0 or more.
+        Of every random draw; 0 or more.
     lap_s
         When a lap ends, s; by default the first sharp corner of the default course, and a
         demonstrator's help, lie in it.

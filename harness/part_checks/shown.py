@@ -39,12 +39,12 @@ class Survey:
 
     Attributes
     ----------
-    questions, lived, rng
+    questions, experience, rng
         As ``Respondent.answer`` takes them.
     """
 
     questions: tuple[Question, ...]
-    lived: LapExperience
+    experience: LapExperience
     rng: np.random.Generator
 
 

@@ -21,7 +21,7 @@ from participants.survey import Answer
 
 
 class PristineWorld:
-    """A world, and a copy of everything it has said: nobody else can write into the copies."""
+    """A world, and a copy of all its observations; no part can write into the copies."""
 
     def __init__(self, world: World) -> None:
         self._world = world
@@ -47,7 +47,7 @@ class PristineWorld:
         self._world.reset(rng)
 
     def observe(self) -> Observation:
-        """Return what the instruments say now."""
+        """Return the instruments' readings."""
         seen = self._world.observe()
         self.seen.append(deepcopy(seen))
         return seen
@@ -61,12 +61,12 @@ class PristineWorld:
         self._world.step(command)
 
     def __getattr__(self, name: str) -> Any:
-        """Be the world in every other respect: a part that digs for it must find all of it."""
+        """Be the world in every other respect: a part that reaches for it must find all of it."""
         return getattr(self._world, name)
 
 
 class SightKeeper:
-    """Stands where a demonstrator or a model would, and keeps what it sees.
+    """Takes the place of a demonstrator or a model, and keeps what it sees.
 
     Parameters
     ----------
@@ -158,7 +158,7 @@ def moments(
     *,
     training: bool,
 ) -> list[Moment]:
-    """Return what was shown in the steps of a lap, as it was before anybody could change it."""
+    """Return what was shown in the steps of a lap, as it was before a part could change it."""
     return [
         _moment(step, seen, sight, world, limitation, training=training)
         for step, seen, sight in zip(tape.steps, world.seen, sights, strict=False)

@@ -2,9 +2,9 @@
 
 What cannot be seen from outside can be shown by an experiment. A part took its place in a lap:
 the world moved on around it. Another one, made alike, is shown a recording of the same, while the
-world stands at the start. One that looks at what it is shown answers the same. One that reaches
+world is at the start. One that looks at what it is shown answers the same. One that reaches
 for the world itself, by the frames of its callers or among all objects of the process, finds
-another truth there, or none, and answers otherwise or fails.
+another state there, or none, and answers differently or fails.
 """
 
 from typing import Any
@@ -39,7 +39,7 @@ def sees_no_more(role: Role, part: Any, evidence: Evidence) -> CheckResult:
         fault = f"in a lap it works; shown a recording of one, {alone}"
         return CheckResult(NAME, "failed", fault, allowed)
     if evidence.first.plain() != evidence.again.plain():
-        why = "it answers otherwise each time"
+        why = "it answers differently each time"
         return CheckResult(NAME, "not checked", why, allowed)
     if repeated.changed is not None:
         why = f"it writes into what it is shown ({repeated.changed})"
@@ -49,7 +49,7 @@ def sees_no_more(role: Role, part: Any, evidence: Evidence) -> CheckResult:
     fault_or_none = (
         None
         if where is None
-        else f"in a lap it answers otherwise than when shown a recording of it, first in {where}"
+        else f"in a lap it answers differently than when shown a recording of it, first in {where}"
     )
     found = f"{sum(map(len, given))} answers in laps are those to a recording of them"
     return CheckResult.of(NAME, fault_or_none, found, allowed)

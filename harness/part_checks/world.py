@@ -1,4 +1,4 @@
-"""Check a world: it starts where the course says, says what it measures, and follows commands."""
+"""Check a world: it starts at the course's start, gives observations, and follows commands."""
 
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -128,15 +128,15 @@ def _wrong_property(world: Any, setting: Setting) -> str | None:
 
 
 def _same(first: WorldRun, again: WorldRun) -> CheckResult:
-    allowed = "two worlds made alike and reset with the same seed say the same, to the bit"
-    return _equal(SAME, first, again, allowed, "a second world, made alike, says otherwise")
+    allowed = "two worlds made alike and reset with the same seed give the same, to the bit"
+    return _equal(SAME, first, again, allowed, "a second world, made alike, differs")
 
 
 def _reset(first: WorldRun, later: WorldRun, again: WorldRun) -> CheckResult:
-    allowed = "reset with the same seed after other laps, it says the same, to the bit"
+    allowed = "reset with the same seed after other laps, it gives the same, to the bit"
     if first.plain() != again.plain():
         return CheckResult(RESET, "not checked", f"it does not pass '{SAME}'", allowed)
-    return _equal(RESET, first, later, allowed, "after other laps it says otherwise")
+    return _equal(RESET, first, later, allowed, "after other laps it differs")
 
 
 def _equal(name: str, one: WorldRun, other: WorldRun, allowed: str, what: str) -> CheckResult:

@@ -1,4 +1,4 @@
-"""Drive a world through a fixed script of commands, and keep all it says."""
+"""Drive a world through a fixed script of commands, and keep all its observations."""
 
 import time
 from collections.abc import Iterator
@@ -27,7 +27,7 @@ SCRIPT: tuple[tuple[Phase, float], ...] = (
 """What happens, and for how many seconds each."""
 
 HELD_S = 1.5
-"""How long each of the wild commands is held, s."""
+"""How long each of the wild commands lasts, s."""
 
 AHEAD, LEFT = Command(0.3, 0.0), Command(0.0, 0.3)
 
@@ -61,7 +61,7 @@ class WorldRun:
     fault: str | None = None
 
     def plain(self) -> list[list[Any]]:
-        """Return what it said in a form to be compared."""
+        """Return its observations in a form to be compared."""
         return [[plain(seen) for seen in self.seen]]
 
 
@@ -105,7 +105,7 @@ def run_world(world: World, setting: Setting, lap: str = "lap 0/world") -> World
             held = now
             run.seen.append(deepcopy(now))
             if step == 1:
-                _note_change(run, world.observe(), "asked again, the world says something else")
+                _note_change(run, world.observe(), "asked again, the world answers differently")
     except (Exception, SystemExit) as error:  # noqa: BLE001  # other people's code may fail in any way
         run.fault = f"{where} it raises {described(error)}"
     return run

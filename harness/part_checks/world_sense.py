@@ -1,4 +1,4 @@
-"""Whether what a world says is possible, and its commands and its guard mean what they should."""
+"""Whether a world's observations are possible, and it follows and guards commands correctly."""
 
 import math
 from collections.abc import Iterator
@@ -22,7 +22,7 @@ LEAST = 0.5
 """Of the way that a command at once obeyed would give, the chair makes at least this share."""
 
 AT_REST = 0.02
-"""What may be left of a velocity after the chair was told to stand, m/s and rad/s."""
+"""What may be left of a velocity after the chair was told to stop, m/s and rad/s."""
 
 
 def starts_at_the_start(run: WorldRun, setting: Setting) -> CheckResult:
@@ -71,7 +71,7 @@ def _faults(seen: Observation, t: float, bearings: Any) -> Iterator[str]:
         if np.shape(array) != shape:
             yield f"{name} have shape {np.shape(array)} instead of {shape}"
         elif not ((array >= 0) & (array <= LASER_RANGE)).all():
-            yield f"{name} lie between {np.min(array):g} and {np.max(array):g} m"
+            yield f"{name} are between {np.min(array):g} and {np.max(array):g} m"
     if not (math.isfinite(seen.clearance_m) and seen.clearance_m >= 0):
         yield f"clearance is {seen.clearance_m!r}"
     if not isinstance(seen.contact, bool):
@@ -79,7 +79,7 @@ def _faults(seen: Observation, t: float, bearings: Any) -> Iterator[str]:
 
 
 def stays_observed(run: WorldRun) -> CheckResult:
-    """Check that looking changes nothing, and that what was seen stays as it was."""
+    """Check that observing changes nothing, and that an observation stays as it was."""
     allowed = "asked again without a step, the same; an observation given stays as it was"
     found = f"{len(run.seen)} observations stayed as they were"
     return CheckResult.of("observing", run.unstable, found, allowed)
@@ -118,7 +118,7 @@ def _turned(run: WorldRun) -> float:
 
 
 def _left_after_stop(run: WorldRun) -> float:
-    """Return the larger velocity just before the turn, when the chair has been told to stand."""
+    """Return the larger velocity just before the turn, when the chair has been told to stop."""
     return max(map(abs, run.seen[run.phases.index("left")].velocity))
 
 

@@ -35,7 +35,7 @@ _LOG = logging.getLogger(__name__)
 
 
 _UNFIT = "lad-study cannot run a session here"
-"""How an error begins that says so; machine, Dask's name for the worker and a reason follow."""
+"""The beginning of such an error; machine, Dask's name for the worker and a reason follow."""
 
 
 class Cluster:
@@ -147,7 +147,7 @@ def _on_worker(task: bytes) -> Callable[[int], tuple[str, Any]]:
     """Return the function that answers for a number with a machine's name and the task's answer.
 
     It travels as code, because it is defined in here, and names nothing of ours: a worker on a
-    machine without this package can still say what it lacks, instead of ending.
+    machine without this package can still report what it lacks, instead of ending.
     """
 
     def run_there(number: int) -> tuple[str, Any]:
@@ -164,7 +164,7 @@ def _on_worker(task: bytes) -> Callable[[int], tuple[str, Any]]:
 
         try:
             run = pickle.loads(task)  # noqa: S301  # our own
-        except BaseException as error:  # noqa: BLE001  # it is told, by a name the runner knows
+        except BaseException as error:  # noqa: BLE001  # it is reported, by a name the runner knows
             reason = " ".join(f"{type(error).__name__}: {error}".split())
             raise unfit(reason) from None
         answer = run(number)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from harness.running.sessions import world_of
-from harness.session.borrowed import make_all_parts
+from harness.session.borrowed import borrowed_models
 from harness.session.replay import replay
 from harness.session.study_run import StudyRun
 from protocols.files.errors import InputError
@@ -88,5 +88,5 @@ def _recover(folder: Path, run: StudyRun, name: str) -> None:
         raise InputError(f"{journal.path}: no participant is called {name!r}; allowed: P0001, ...")
     world = world_of(run)
     lent = replace(run, previous=model_before(folder, number))
-    record = replay(journal, run, number, world, make_all_parts(lent, number, world))
+    record = replay(journal, run, number, world, borrowed_models(lent, number, world))
     write_session(folder, name, encode(record, run.digest), keep_damaged=True)

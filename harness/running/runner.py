@@ -8,6 +8,7 @@ from pathlib import Path
 from harness.running.open_workers import open_workers
 from harness.running.sessions import run_sessions, try_parts
 from harness.running.workers import Died, Failed, Finished, Workers
+from harness.running.writer import AT_ONCE, Writer
 from harness.session.study_run import StudyRun, portable
 from protocols.model_choice import borrows_from_previous
 from protocols.record.header import StudyHeader
@@ -25,9 +26,6 @@ from protocols.record.store import (
     write_death,
     write_failure,
     write_given_up,
-    write_session,
-    write_timing,
-    write_warnings,
 )
 
 Tell = Callable[[int, int], None]
@@ -101,7 +99,10 @@ def run_study(
             missing = _missing(named, out, retry_failed=retry_failed)
             before = len(_planned(run)) - len(missing)
             counted = (lambda ended: tell(before + ended, len(_planned(run)))) if tell else None
-            finished = _write(out, _sessions(workers, named, missing, out), counted)
+            # A session that lends its model to the next is on the disk before that begins.
+            at_once = 1 if borrows_from_previous(run.study.protocol.models) else AT_ONCE
+            sessions = _sessions(workers, named, missing, out)
+            finished = _write(out, sessions, counted, at_once)
             build_tables(out, named.digest)
             return _outcome(named, out, finished)
 
@@ -159,34 +160,34 @@ def _write(
     out: Path,
     sessions: Iterable[tuple[int, Finished | Failed | Died]],
     tell: Callable[[int], None] | None,
+    at_once: int = AT_ONCE,
 ) -> int:
     """Write each session as it comes in; return how many finished."""
     finished = ended = 0
-    if tell:
-        tell(0)
-    for number, session in sessions:
-        name = participant_id(number)
-        if isinstance(session, Died) and session.retried:
-            write_death(out, name, session.reason)
-            continue
-        clear_failure(out, name)
-        if isinstance(session, Finished):
-            _keep(out, name, session)
-            finished += 1
-        elif isinstance(session, Failed):
-            write_failure(out, name, session.trace)
-        else:
-            write_given_up(out, name, session.reason)
-        ended += 1
-        if tell:
+    tell = tell or (lambda _: None)
+    tell(0)
+    with Writer(out, at_once) as writer:
+        for number, session in sessions:
+            name = participant_id(number)
+            if isinstance(session, Died) and session.retried:
+                write_death(out, name, session.reason)
+                continue
+            clear_failure(out, name)
+            if isinstance(session, Finished):
+                for _ in writer.write(name, session):
+                    finished, ended = finished + 1, ended + 1
+                    tell(ended)
+                continue
+            if isinstance(session, Failed):
+                write_failure(out, name, session.trace)
+            else:
+                write_given_up(out, name, session.reason)
+            ended += 1
+            tell(ended)
+        for _ in writer.wait():
+            finished, ended = finished + 1, ended + 1
             tell(ended)
     return finished
-
-
-def _keep(out: Path, name: str, session: Finished) -> None:
-    write_session(out, name, session.files)
-    write_timing(out, name, session.wall_s)
-    write_warnings(out, name, session.warned)
 
 
 def _outcome(run: StudyRun, out: Path, finished: int) -> Outcome:

@@ -111,7 +111,7 @@ class FileJournal:
         command: Command | None,
         demonstrator: Assistance | None,
         timing: Timing | None,
-        telemetry: Mapping[str, Any],
+        telemetry: Mapping[str, Any] = MappingProxyType({}),
     ) -> None:
         """Note what people gave in one control step."""
         self._note({"tick": tick_entry(command, demonstrator, timing, telemetry)})

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -101,7 +102,7 @@ class Step(NamedTuple):
     result: Observation
     input_age_s: float
     timing: Timing | None
-    telemetry: Mapping[str, Any]
+    telemetry: Mapping[str, Any] = MappingProxyType({})
 
 
 @dataclass(frozen=True, slots=True)

@@ -93,7 +93,7 @@ def make_every_part(run: StudyRun, *, only_shipped: bool = False) -> None:
             _demonstrator(run, 1)
     if wanted("model", protocol.model.use):
         with _placed(run, "model"):
-            _model(run, 1)
+            session_model(run, 1)
     if cohort.respondent is not None and wanted("respondent", cohort.respondent.use):
         with _placed(run, "cohort.respondent"):
             _respondent(run, 1, person)
@@ -108,7 +108,7 @@ def _make_parts_of_group(
     own = _as_group(run, group)
     if group.model is not None and wanted("model", group.model.use):
         with _placed(run, f"groups.{name}.model"):
-            _model(own, 1)
+            session_model(own, 1)
     if group.demonstrator is not None and wanted("demonstrator", group.demonstrator.use):
         with _placed(run, f"groups.{name}.demonstrator"):
             _demonstrator(own, 1)
@@ -181,12 +181,14 @@ def make_parts(
     """
     run = of_one(run, number)
     whose = draw_person(run, number) if person is None else person
+    if run.study.protocol.cohort.driver.use == LIVE:
+        whose = whose.living()
     return SessionParts(
         person=whose,
         lap=LapParts(
             driver=_driver(run, number, whose, seats.participant),
             demonstrator=_demonstrator(run, number, seats.demonstrator),
-            model=_model(run, number),
+            model=session_model(run, number),
         ),
         respondent=_respondent(run, number, whose, seats.participant),
         reader=SimulatedReader(whose.particulars())
@@ -229,7 +231,8 @@ def _demonstrator(run: StudyRun, number: int, seat: Seat | None = None) -> Demon
     return make_demonstrator(choice.use, setup, run.study.code)
 
 
-def _model(run: StudyRun, number: int) -> Assistant:
+def session_model(run: StudyRun, number: int) -> Assistant:
+    """Return the model of a participant's session."""
     folder = str(run.study.folder or Path())
     words = {"participant": participant_id(number), "folder": folder}
     return make_model(run.study.protocol.model, words, run.study.code)

@@ -3,6 +3,7 @@
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Any, Protocol
 
 import numpy as np
@@ -10,21 +11,21 @@ from numpy.typing import NDArray
 
 from harness.session.clock import Clock, LapStoppedError, Timing
 from harness.session.lap import LapParts
-from harness.session.parts import SessionParts
+from harness.session.parts import SessionParts, draw_person, session_model
 from harness.session.session import Session
 from harness.session.study_run import StudyRun
 from harness.world.world import World
-from lad.assistant import NO_ASSISTANCE, Assistance
+from lad.assistant import NO_ASSISTANCE, Assistance, Assistant
 from lad.command import Command
 from participants.demonstrator import Demonstrator
-from participants.driver import Driver, WithdrewError, kind_of
+from participants.driver import Driver, WithdrewError
 from participants.pages import Page, PageReader
 from participants.sight import Sight
 from participants.survey import Answer, LapExperience, Question, Respondent
 from participants.telemetry import telemetry_of
 from protocols.files.errors import InputError
 from protocols.record.journal import Entry, RecordedJournal, journal_header, refuse_other_journal
-from protocols.record.rows import participant_id
+from protocols.record.rows import EventRow, participant_id
 from protocols.record.session import SessionRecord
 
 ENDS_HERE = "the journal ends here"
@@ -43,12 +44,16 @@ class UnfitEntryError(Exception):
 
 
 def replay(
-    journal: RecordedJournal, run: StudyRun, number: int, world: World, parts: SessionParts
+    journal: RecordedJournal,
+    run: StudyRun,
+    number: int,
+    world: World,
+    models: Mapping[str, Assistant] = MappingProxyType({}),
 ) -> SessionRecord:
     """Return the record of a session from what was applied in it.
 
     An unfinished journal gives the record up to its end: the lap under way ends as interrupted,
-    and nothing follows it.
+    and nothing follows it. Only the model answers again; people's inputs come from the journal.
 
     Parameters
     ----------
@@ -58,39 +63,46 @@ def replay(
         The study and the participant it is of.
     world
         Of the study's course.
-    parts
-        Those of the session. Only the model is asked again; people give what they gave then.
+    models
+        Those that others have taught, by the protocol's names for them.
 
     Raises
     ------
     InputError
-        When the journal is another session's, or does not fit the session's stages.
+        When the journal is another session's, does not fit the session's stages, or the study's
+        model cannot be made.
     """
     refuse_other_journal(journal, journal_header(run.study, run.seed, participant_id(number)))
     entries = ReadEntries(journal.entries)
-    people, clock = replayed_people(entries, parts)
+    parts = replace(parts_to_replay(entries, run, number, journal.header.kind), models=models)
     session = Session(
-        run, number, world, people,
-        clock=clock, journal=entries, repeats=lambda _: is_next(entries, "repeat"),
+        run, number, world, parts,
+        clock=ReplayedClock(entries, None), journal=entries,
+        repeats=lambda _: is_next(entries, "repeat"),
     )  # fmt: skip
     try:
-        return session.run()
+        return replace(session.run(), events=events_of(journal))
     except UnfitEntryError as error:
         line = len(journal.entries) - len(entries.left) + 2
         raise InputError(f"{journal.path}:{line}: {error}") from None
 
 
-def replayed_people(entries: Entries, parts: SessionParts) -> tuple[SessionParts, Clock]:
-    """Return parts and a clock that take everything from a journal; at its end, the lap ends."""
-    given = parts.lap.demonstrator
-    lap = LapParts(
-        ReplayedDriver(entries, parts.lap.driver, None),
-        None if given is None else ReplayedDemonstrator(entries, None, given),
-        parts.lap.model,
+def parts_to_replay(entries: "Entries", run: StudyRun, number: int, kind: str) -> SessionParts:
+    """Return parts that take everything from a journal but the model's answers."""
+    cohort, person = run.study.protocol.cohort, draw_person(run, number)
+    demonstrator = None if cohort.demonstrator is None else ReplayedDemonstrator(entries, None)
+    return SessionParts(
+        person=person.living() if kind == "live" else person,
+        lap=LapParts(ReplayedDriver(entries, kind, None), demonstrator, session_model(run, number)),
+        respondent=None if cohort.respondent is None else ReplayedRespondent(entries, None),
+        reader=ReplayedReader(entries, None),
     )
-    respondent = None if parts.respondent is None else ReplayedRespondent(entries, None)
-    people = replace(parts, lap=lap, respondent=respondent, reader=ReplayedReader(entries, None))
-    return people, ReplayedClock(entries, None)
+
+
+def events_of(journal: RecordedJournal) -> tuple[EventRow, ...]:
+    """Return the events that a journal holds."""
+    found = (entry["event"] for entry in journal.entries if "event" in entry)
+    return tuple(EventRow(participant=journal.header.participant, **event) for event in found)
 
 
 class ReadEntries:
@@ -162,15 +174,15 @@ class ReplayedDriver:
     ----------
     entries
         What is left of the journal.
-    driver
-        What it is of.
+    kind
+        What the driver is.
     then
         Drives on when the journal is at its end; None for nothing to follow.
     """
 
-    def __init__(self, entries: Entries, driver: Driver, then: Driver | None) -> None:
+    def __init__(self, entries: Entries, kind: str, then: Driver | None) -> None:
         self._entries, self._then = entries, then
-        self.kind = kind_of(driver)
+        self.kind = kind
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:
         """Get ready; a person is asked only for a lap that the journal does not know."""
@@ -201,8 +213,8 @@ class ReplayedDriver:
 class ReplayedDemonstrator:
     """A demonstrator from the journal, then the demonstrator itself; as for the driver."""
 
-    def __init__(self, entries: Entries, then: Demonstrator | None, given: object = None) -> None:
-        self._entries, self._then, self._given = entries, then, given
+    def __init__(self, entries: Entries, then: Demonstrator | None) -> None:
+        self._entries, self._then = entries, then
 
     def start_lap(self) -> None:
         """Watch a new lap."""

@@ -144,7 +144,7 @@ class BulletWorld:
             chair.advance()
             if watch:
                 touched = chair.touching() or touched
-        if touched:  # what the wheels have left, or the chair would leap off when it comes free
+        if touched:  # the wheels' real speed, or the chair would leap when it comes free
             pose = chair.pose()
             controller.reset(chair.velocity(pose.heading))
         return touched
@@ -161,6 +161,7 @@ class BulletWorld:
             velocity=self._chair.velocity(pose.heading),
             ranges=ranges,
             segments=segments,
+            # A plain tuple: compiled code takes a named one much more slowly.
             clearance_m=max(0.0, clearance(self._table, (pose.x, pose.y, pose.heading))),
             contact=contact,
         )

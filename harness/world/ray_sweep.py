@@ -41,7 +41,7 @@ class RaySweep:
         self._fan = (float(bearings[0]), float(bearings[1] - bearings[0]), reach)
 
     def cast(self, sensor: Pose) -> NDArray[np.float64]:
-        """Return the distances, shape (n,), from a sensor's pose; ``reach`` where nothing is."""
+        """Return the distances, shape (n,), from a sensor's pose; ``reach`` without a box."""
         # A plain tuple: compiled code takes a named one much more slowly.
         return _swept(self._table, tuple(sensor), self._directions, self._fan)  # type: ignore[no-any-return]
 

@@ -12,7 +12,7 @@ still turn on the spot; everywhere else about a centimetre, so that narrow passa
 a tail may swing. Nearer than that already, a step may use up half of what is left, which lets
 one steer off a wall and yet never reaches it.
 
-ARTY sees all around with three scanners, so the guard gets the true distances to what stands
+ARTY sees all around with three scanners, so the safeguard gets the true distances to the obstacles
 around, not the one simulated scan.
 """
 
@@ -183,7 +183,7 @@ def _admissible(near: Any, state: Any, command: Any, period: float) -> bool:
         if spare < 0.0:
             ahead = stretched_clearance(near, (x, y, heading), front, rear)
             spare = ahead - max(keep, keep_ahead)
-            if spare < 0.0:  # the chair itself is never nearer than what it is stretched to
+            if spare < 0.0:  # the chair itself is never nearer than its stretched outline
                 own = ahead if command[0] == 0.0 else clearance(near, (x, y, heading))
                 spare = min(ahead - keep_ahead, own - keep)
             if spare < 0.0:

@@ -10,7 +10,7 @@ from protocols.pose import Pose
 
 
 class Observation(NamedTuple):
-    """What the instruments say at the start of a control step.
+    """What the instruments measure at the start of a control step.
 
     Attributes
     ----------

@@ -30,7 +30,7 @@ FIRM = 0.9
 
 
 class Situation(NamedTuple):
-    """Where one is, and how the chair stands to the way.
+    """Where the chair is, and in which direction, relative to the way.
 
     Attributes
     ----------

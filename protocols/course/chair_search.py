@@ -21,7 +21,7 @@ BEND = 0.15
 """How many metres a change of direction to the next of the sixteen counts, m."""
 
 ON_THE_SPOT = 0.8
-"""The same while standing, m: a way that goes on is better."""
+"""The same while standing, m: a way that continues is better."""
 
 POST = WIDTH / 2 + 0.15
 """How far from its posts a gate is passed, where it is wide enough, m."""
@@ -189,7 +189,7 @@ def _states(floor: Any, fits: Any, states: Any, costs: Any) -> Any:
 
 
 def _stuck(course: Course, gate: int, leg: _Leg, before: NDArray[np.int64]) -> NoWayError:
-    """Return the error that says how near to a gate the chair comes."""
+    """Return the error with how near to a gate the chair comes."""
     states = np.flatnonzero(before >= 0)
     error = no_way(course, gate, "no way on which the chair can turn", WIDTH / 2)
     if not len(states):

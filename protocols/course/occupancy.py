@@ -17,7 +17,7 @@ REACH = 10.0
 not matter, and must not cost memory."""
 
 FAR = 8.0
-"""Distances are not told apart beyond this, m: nobody keeps away farther."""
+"""Larger distances count as this one, m: no driver keeps farther away."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,7 @@ class Occupancy:
         every obstacle.
     distance
         Same shape: distance from the cell's centre to the nearest obstacle, m; 0 inside one, at
-        most ``FAR``. An obstacle thinner than a cell may cover no centre: go by this, not by
+        most ``FAR``. An obstacle thinner than a cell may cover no centre: use this, not
         ``free`` alone.
     """
 

@@ -123,7 +123,7 @@ class _Unfolding:
         self.lines.setdefault(where, node.line)
         self.count += 1
         if self.count > MAX_VALUES:
-            raise self.fault(node, where, f"unfolds to more than {MAX_VALUES} values")
+            raise self.fault(node, where, f"expands to more than {MAX_VALUES} values")
         if node.text is not None:
             return self.scalar(node, where)
         if id(node) in self.open:

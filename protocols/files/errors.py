@@ -37,7 +37,7 @@ class InputError(Exception):
 
 
 def _one_line(fault: str) -> str:
-    """Return a fault as one line that fits a screen; its end says what is allowed."""
+    """Return a fault as one line that fits a screen; its end is what is allowed."""
     line = " ".join(fault.split())
     if len(line) <= LONGEST:
         return line

@@ -22,7 +22,7 @@ def _no_truth_value(value: Any) -> Any:
 
 
 FormatVersion = BeforeValidator(_no_truth_value)
-"""Of a field that says the version of a file's format: a whole number and nothing else."""
+"""Of a field with the version of a file's format: only a whole number."""
 
 
 class FileModel(BaseModel):

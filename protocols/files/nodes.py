@@ -82,7 +82,7 @@ class _Composer:
 
 
 def compose(text: str, source: str) -> tuple[Node | None, tuple[int, int] | None]:
-    """Return a text's one document, and the version of YAML that it says it is of.
+    """Return a text's one document, and the version of YAML that it declares.
 
     Raises
     ------

@@ -23,7 +23,7 @@ _TEXTS = ("str", "timestamp", "value")
 
 
 class ScalarError(ValueError):
-    """A scalar is not what its tag says, or its tag is not allowed."""
+    """A scalar does not fit its tag, or its tag is not allowed."""
 
 
 def tag_of(value: str, version: tuple[int, int] | None) -> str:
@@ -32,7 +32,7 @@ def tag_of(value: str, version: tuple[int, int] | None) -> str:
     Parameters
     ----------
     value
-        As it stands in the file.
+        As it is in the file.
     version
         The file's own version of YAML; None for 1.2.
 
@@ -54,7 +54,7 @@ def scalar_value(tag: str, value: str, version: tuple[int, int] | None) -> Any:
     Raises
     ------
     ScalarError
-        When it cannot be one; says why.
+        When it cannot be one, with the reason.
     """
     kind = tag.removeprefix(TAG)
     if kind == "null":

@@ -68,7 +68,7 @@ class StudyHeader(FileModel):
 
     @property
     def planned_participants(self) -> int | None:
-        """How many people were planned; None where a study from elsewhere does not say so."""
+        """How many people were planned; None where a study from elsewhere does not give it."""
         cohort = self.protocol.cohort
         said = {"cohort"} <= self.protocol.model_fields_set
         if self.origin == "elsewhere" and not (said and "participants" in cohort.model_fields_set):

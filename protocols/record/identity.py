@@ -26,6 +26,7 @@ _LATER: Mapping[str, Mapping[str, Any]] = {
         "debrief": None,
         "live": LiveSettings().model_dump(mode="json"),
     },
+    "consent": {"sharing": False},
     "lap": {"break_s": 0.0, "until_comfortable": False},
     "condition": {"model": "own"},
     "exclusion": {"max_late_share": None, "max_input_age_s": None, "max_interruptions": None},
@@ -77,6 +78,8 @@ def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
         del protocol[field]
     _leave_out_defaults(protocol, "protocol")
     _leave_out_defaults(protocol["exclusion"], "exclusion")
+    if "consent" in protocol:
+        _leave_out_defaults(protocol["consent"], "consent")
     for lap in protocol["laps"]:
         _leave_out_defaults(lap, "lap")
     for model in protocol.get("models", {}).values():

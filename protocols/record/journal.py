@@ -50,12 +50,15 @@ class JournalHeader:
         Protocol, course and instruments, as ``protocols.record.identity.identity`` returns them.
     versions
         Versions of the packages that can change a record.
+    kind
+        What the driver is, as ``participants.kind`` has it.
     """
 
     participant: str
     seed: int
     identity: Mapping[str, Any]
     versions: Mapping[str, str]
+    kind: str = "synthetic"
 
     def line(self) -> Entry:
         """Return the journal's first line."""
@@ -63,14 +66,17 @@ class JournalHeader:
             "journal": FORMAT,
             "participant": self.participant,
             "seed": self.seed,
+            "kind": self.kind,
             "versions": dict(self.versions),
             "identity": dict(self.identity),
         }
 
 
-def journal_header(study: ResolvedStudy, seed: int, participant: str) -> JournalHeader:
+def journal_header(
+    study: ResolvedStudy, seed: int, participant: str, kind: str = "synthetic"
+) -> JournalHeader:
     """Return the head of a journal that is begun here and now."""
-    return JournalHeader(participant, seed, identity(study, seed), package_versions())
+    return JournalHeader(participant, seed, identity(study, seed), package_versions(), kind)
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,7 +183,11 @@ def _header(first: Entry, path: Path) -> JournalHeader:
         )
     try:
         return JournalHeader(
-            str(first["participant"]), int(first["seed"]), first["identity"], first["versions"]
+            str(first["participant"]),
+            int(first["seed"]),
+            first["identity"],
+            first["versions"],
+            str(first["kind"]),
         )
     except (KeyError, TypeError, ValueError):
         raise InputError(f"{path}:1: not the first line of a journal; it is damaged") from None

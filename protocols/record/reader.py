@@ -141,7 +141,7 @@ class Study:
         """Return a lap's steps as an analysis can use them, and what was found about them.
 
         Of a study from elsewhere, times are brought to the lap's start and its clock is held
-        against the lap's own times; positions are held against the course.
+        against the lap's own times; positions are compared with the course.
 
         Parameters
         ----------

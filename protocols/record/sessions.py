@@ -46,7 +46,7 @@ def write_session(
     """
     target = folder / SESSIONS / participant
     manifest = _checked(participant, files)
-    if is_whole(target, manifest.study):
+    if is_whole(target, manifest.study) and not (keep_damaged and any(session_faults(target))):
         return
     partial = partial_beside(target)
     shutil.rmtree(partial, ignore_errors=True)

@@ -44,6 +44,8 @@ class MadeUp:
         Reasons for exclusion by participant number.
     unanswered
         Questions without a response: participant number and item.
+    living
+        Whether living people took part.
     """
 
     participants: int = 4
@@ -53,6 +55,7 @@ class MadeUp:
     words: dict[int, str] = field(default_factory=dict)
     excluded: dict[int, str] = field(default_factory=dict)
     unanswered: frozenset[tuple[int, str]] = frozenset()
+    living: bool = False
 
 
 def lap_steps(course: Any, assistant: str, limited: bool, rng: np.random.Generator) -> pd.DataFrame:
@@ -177,7 +180,7 @@ def session(study: ResolvedStudy, number: int, how: MadeUp, seed: int) -> Sessio
             )
     person = ParticipantRow(
         participant=who,
-        kind="synthetic",
+        kind="live" if how.living else "synthetic",
         driver="human",
         age_years=int(rng.integers(21, 39)),
         gender="female" if rng.random() < 5 / 12 else "male",
@@ -197,7 +200,7 @@ def write_study(
 ) -> Study:
     """Write a made-up study directory, and open it."""
     study = resolve_study(str(protocol), participants=how.participants)
-    open_folder(folder, study, seed)
+    open_folder(folder, study, seed, "live" if how.living else "simulated")
     for number in range(1, how.participants + 1):
         record = session(study, number, how, seed)
         write_session(folder, record.participant.participant, encode(record))

@@ -5,9 +5,12 @@ import shutil
 import numpy as np
 import pandas as pd
 
+from analysis import lap_records
 from analysis.frames import study_frames
 from analysis.lap_records import read_laps
 from analysis.measures.path_length import path_length
+from analysis.measures.registry import MEASURES
+from analysis.measures.streams import at_hand
 
 
 def test_every_analysed_lap_is_measured_once(study):
@@ -97,3 +100,23 @@ def test_gaps_are_counted_in_laps(make_study):
         "p_help is infinite in some steps: missing there": 2,
         "t_s does not increase from step to step: measures that need the time are missing": 3,
     }
+
+
+def test_several_processes_read_what_one_reads(study, monkeypatch):
+    """Laps come in their order, with the same numbers and the same kinds of columns."""
+    frames = study_frames(study)
+    one = read_laps(frames)
+    monkeypatch.setattr(lap_records, "MANY", 1)
+    monkeypatch.setattr(lap_records, "PIECE", 3)
+    two = read_laps(frames, jobs=2)
+    pd.testing.assert_frame_equal(one.measures, two.measures)
+    pd.testing.assert_frame_equal(one.steps, two.steps)
+    assert (one.gaps, one.unrecorded) == (two.gaps, two.unrecorded)
+
+
+def test_what_is_worked_out_once_is_what_each_measure_would_work_out(study):
+    """A measure of a step table at hand says what it says of the table alone."""
+    steps = study.steps("P0001", 4).to_pandas()
+    with at_hand(steps):
+        together = [m.of(steps) for m in MEASURES]
+    np.testing.assert_array_equal(together, [m.of(steps) for m in MEASURES])

@@ -102,6 +102,9 @@ def test_three_browsers_make_a_study(live, visit):  # noqa: PLR0915  # one sessi
     press(participant, "check-continue")
     wait(participant, "consent-agree")
     assert fits(participant)
+    assert "Taking part You drive. You can stop." in " ".join(
+        participant.inner_text("main").split()
+    )
     press(participant, "consent-agree")
     participant.locator("input[name=age_years]").fill("31")
     press(participant, "demographics-submit")

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from participants.population import PEOPLE, TRAITS
-from participants.registry import IMPAIRMENTS
+from protocols.shipped_parts import IMPAIRMENTS
 
 PAGE = (Path(__file__).parents[2] / "docs" / "cohort.md").read_text(encoding="utf-8")
 

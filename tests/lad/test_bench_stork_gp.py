@@ -65,8 +65,9 @@ def test_a_run_prints_the_promises_and_writes_rows(bench, monkeypatch, tmp_path,
         *((n, o) for n in ("lad", "blas", "numpy", "sklearn") for o in bench.OPERATIONS),
         ("bound", "dsymv"),
         ("bound", "dsyr"),
+        ("bound", "full+delete"),
     }
-    assert len(rows) == 2 * 2 * 18
+    assert len(rows) == 2 * 2 * 19
     assert all(row["median_us"] > 0.0 for row in rows)
     assert (tmp_path / "plot.svg").stat().st_size > 1000
 
@@ -78,7 +79,12 @@ def test_aims_are_compared_with_the_measurement(bench):
         bench.Row("bound", "dsymv", 400, 4, 40.0),
         bench.Row("blas", "full+delete", 400, 4, 800.0),
     ]
-    first, second, third = bench.verdict(rows).splitlines()
+    rows += [bench.Row("bound", "full+delete", m, 4, m / 1.5) for m in (200, 400)]
+    rows += [bench.Row("bound", "full+delete", 800, 4, 400.0)]
+    small, middle, large, first, second, third = bench.verdict(rows).splitlines()
+    assert small.endswith("1.50 (at most 1.8): met")
+    assert middle.endswith("1.50 (at most 1.8): met")
+    assert large.endswith("2.00 (at most 1.8): MISSED")
     assert first.endswith("10.00 (at most 9): MISSED")
     assert second.endswith("0.50 (at most 0.6): met")
     assert third.endswith("1.00 (at most 2): met")

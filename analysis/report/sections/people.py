@@ -10,7 +10,7 @@ from analysis.stats.describe import describe
 
 
 def people_section(results: StudyResults) -> Section:
-    """Return who was planned, recorded, excluded and why, and analysed; and the laps they drove."""
+    """Return the numbers planned, recorded, excluded and why, and analysed; and the laps driven."""
     frames = results.frames
     blocks: list[Block] = [
         table("participants_flow", "Participants flow.", _stages(results.flow),
@@ -103,7 +103,7 @@ def _stages(flow: Flow) -> pd.DataFrame:
 
 
 def _before(flow: Flow) -> list[tuple[str, int]]:
-    """Return the stages up to the recorded ones; fewer where nothing says how many were planned."""
+    """Return the stages up to the recorded ones; fewer where the planned number is unknown."""
     broke_off = ("less: session broke off with an error", flow.failed)
     if flow.planned is None:
         return [

@@ -7,7 +7,7 @@ export function el(name, attributes = {}, ...children) {
     else if (value === true) made.setAttribute(key, "");
     else if (value !== false && value !== null && value !== undefined) made.setAttribute(key, value);
   }
-  for (const child of children.flat()) {
+  for (const child of children.flat(Infinity)) {
     if (child !== null && child !== undefined) made.append(child);
   }
   return made;
@@ -15,7 +15,7 @@ export function el(name, attributes = {}, ...children) {
 
 export function show(...children) {
   const main = document.getElementById("main");
-  main.replaceChildren(...children);
+  main.replaceChildren(...children.flat(Infinity));
   const first = main.querySelector("h1, button, input");
   if (first && first.tagName === "H1") { first.tabIndex = -1; first.focus({ preventScroll: true }); }
   window.scrollTo(0, 0);

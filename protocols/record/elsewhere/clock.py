@@ -34,13 +34,13 @@ def lap_clock(t: NDArray[np.float64], lasted: Sequence[float]) -> Clock:
     t
         As recorded, shape (n,); NaN where missing.
     lasted
-        How long the lap took by each column that says so, s; empty when none does.
+        How long the lap took by each column that has a time, s; empty when none has.
 
     Returns
     -------
     Clock
         The times, and a remark where they were in another unit or counted from another moment. All
-        NaN where they contradict how long the lap took: then nothing says which of the two is
+        NaN where they contradict how long the lap took: then it is unknown which of the two is
         right.
     """
     known = t[np.isfinite(t)]

@@ -98,7 +98,7 @@ def _once(table: pa.Table, path: Path) -> tuple[pa.Table, tuple[str, ...]]:
 
 
 def _is_simple(kind: pa.DataType) -> bool:
-    """Tell whether a column of one's own can be kept: one plain value in each row."""
+    """Return whether an additional column can be kept: one plain value in each row."""
     if pa.types.is_dictionary(kind):
         kind = kind.value_type
     return bool(
@@ -113,7 +113,7 @@ def _is_simple(kind: pa.DataType) -> bool:
 
 
 def _check_missing(array: pa.ChunkedArray, column: Column, rules: TableRules, path: Path) -> None:
-    # A missing measurement is a gap in the analysis; without a key, nobody knows whose row it is.
+    # A missing measurement is a gap in the analysis; without a key, it is unknown whose row it is.
     if pa.types.is_floating(column.type):
         return
     if column.name in rules.required and not column.nullable and array.null_count:

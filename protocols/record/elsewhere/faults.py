@@ -19,7 +19,7 @@ Tell = Callable[[str], None]
 def foreign_faults(folder: Path, tell: Tell | None = None) -> Iterator[str]:
     """Read everything there is of a study that was recorded elsewhere, and name what is wrong.
 
-    Its tables have no checksums; what they say is held against one another, the plan, the course
+    Its tables have no checksums; their values are compared with one another, the plan, the course
     and the folders there are.
     """
     try:

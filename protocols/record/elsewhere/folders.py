@@ -82,12 +82,12 @@ def strays(
         yield f"{_number(len(loose), 'table')} beside the session folders ({_some(loose)})"
     folders = sorted(path for path in sessions.iterdir() if path.is_dir())
     others = {p.name: _tables(p) for p in folders if p not in owners and not is_partial(p)}
-    nobody = {name: tables for name, tables in others.items() if tables}
-    tables = sum(len(names) for names in nobody.values())
-    if nobody:
+    unknown = {name: tables for name, tables in others.items() if tables}
+    tables = sum(len(names) for names in unknown.values())
+    if unknown:
         yield (
-            f"{_number(tables, 'step table')} in {_number(len(nobody), 'session folder')} of "
-            f"people who are not in the table of participants ({named(nobody, people)})"
+            f"{_number(tables, 'step table')} in {_number(len(unknown), 'session folder')} of "
+            f"people who are not in the table of participants ({named(unknown, people)})"
         )
     without = [
         f"{who}: {name}"

@@ -44,7 +44,7 @@ def joined_laps(
 
 
 def with_practice(laps: Conformed, protocol: StudyProtocol, path: Path) -> Conformed:
-    """Return laps that say which of them are practice.
+    """Return laps with which of them are practice.
 
     Raises
     ------

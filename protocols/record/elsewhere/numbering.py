@@ -1,4 +1,4 @@
-"""Laps and answers matched with the plan by what they say of themselves, not by their place."""
+"""Laps and answers matched with the plan by their own values, not by their place."""
 
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
@@ -19,7 +19,7 @@ class _Lap(NamedTuple):
 
 
 class Practice(NamedTuple):
-    """Which laps are practice, and in words how that is known where they do not say so."""
+    """Which laps are practice, and in words how that is known where it is not recorded."""
 
     column: tuple[bool, ...]
     remarks: tuple[str, ...]
@@ -70,7 +70,7 @@ def _planned(plan: Sequence[PlannedLap], place: int) -> str | None:
 
 
 def practice(laps: pa.Table, plan: Sequence[PlannedLap], where: str) -> Practice:
-    """Return which laps are practice: as they say themselves, else as the plan has it.
+    """Return which laps are practice: as recorded, else as in the plan.
 
     A condition that is planned for practice alone, or never, decides. Where one is practised and
     analysed, a participant who drove it as often as planned did so in the planned order; one who

@@ -62,9 +62,9 @@ def with_known_ids(table: pa.Table, known: Iterable[str]) -> tuple[pa.Table, int
 
 
 def probably(stranger: str, known: Iterable[str]) -> str | None:
-    """Return who may be meant by an id that is not known; None when it may be nobody, or several.
+    """Return who may be meant by an unknown id; None when it may be no one, or several.
 
-    Letter case, zeros in front, and what stands before the number are not looked at.
+    Letter case, zeros in front, and text before the number are ignored.
 
     Examples
     --------

@@ -67,7 +67,7 @@ INCOMPLETE = (
     "the positions do not pass the gates in their order, although the lap was finished: they are a "
     "part of it, or in another frame"
 )
-"""What is said of a lap whose positions are on the floor, but not all the way."""
+"""The remark on a lap whose positions are on the floor, but not all the way."""
 
 
 class Floor:
@@ -108,7 +108,7 @@ class Floor:
         return float(off.mean())
 
     def _passes(self, xy: Points) -> bool:
-        """Tell whether the way passes every gate: a step is where it began, so it goes on a bit."""
+        """Return whether the way passes every gate; it is extended, as a step is where it began."""
         gates = GateCounter(self._course)
         moves = np.diff(xy, axis=0)
         moved = moves[np.abs(moves).sum(axis=1) > 0]

@@ -10,14 +10,14 @@ from protocols.record.tables import LAP_COLUMNS, PARTICIPANT_COLUMNS, SURVEY_COL
 
 
 class Range(NamedTuple):
-    """Which finite numbers are allowed, and how a message says so.
+    """Which finite numbers are allowed, and their words in a message.
 
     Attributes
     ----------
     low, high
         Ends; None for no end.
     words
-        As a message says it.
+        As in a message.
     open_low
         Whether ``low`` itself is not allowed.
     """

@@ -7,7 +7,7 @@ from participants.respondent import ordinal_respondent
 
 class Yes:
     def __init__(self, setup): self.word = setup.options.get("word", 4)
-    def answer(self, questions, lived, rng): return tuple(self.word for _ in questions)
+    def answer(self, questions, experience, rng): return tuple(self.word for _ in questions)
 
 def yes(setup): return Yes(setup)
 
@@ -68,7 +68,7 @@ def test_a_part_that_fails(lad_study):
     ],
 )
 def test_bad_input_is_one_line(lad_study, arguments, parts):
-    """Exit code 2, and one line that says what is allowed."""
+    """Exit code 2, and one line with what is allowed."""
     said = lad_study("check-part", *arguments)
     assert said.code == 2
     assert said.out == ""

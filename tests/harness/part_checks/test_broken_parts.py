@@ -1,4 +1,4 @@
-"""A part with one thing wrong fails one check, the right one, and says what was found."""
+"""A part with one fault fails one check, the right one, and its line has what was found."""
 
 import pytest
 
@@ -25,7 +25,7 @@ WRONG = [
     ("driver", "RaisingLater", "reset between laps", "RuntimeError: not again (their_parts.py:"),
     ("driver", "Unseeded", "same seed, same answers", "first in step 1 of lap 1"),
     ("driver", "Shared", "same seed, same answers", "first in step 1 of lap 1"),
-    ("driver", "Digging", "sees no more than it is shown", "in a lap it answers otherwise"),
+    ("driver", "Digging", "sees no more than it is shown", "in a lap it answers differently"),
     ("driver", "DiggingOnly", "sees no more than it is shown", "it raises AttributeError"),
     ("driver", "Scribbling", "leaves what it is given as it is", "sight of step 1 of lap 1"),
     ("driver", "Taking", "leaves what it is given as it is", "its options"),
@@ -41,7 +41,7 @@ WRONG = [
     ("demonstrator", "Clinging", "reset between laps", "from step 1 after a lap broken off"),
     ("impairment", "AsksTwice", "leaves the driver its part", "60 times in 30 steps"),
     ("impairment", "Drawing", "leaves the driver its part", "draws were taken"),
-    ("impairment", "Kindless", "leaves the driver its part", "it is synthetic"),
+    ("impairment", "Kindless", "leaves the driver its part", "its kind is synthetic"),
     ("impairment", "NobodyLeaves", "leaves the driver its part", "WithdrewError"),
     ("impairment", "NeedsCommands", "a driver with nothing new", "it raises AttributeError"),
     ("impairment", "AlwaysThere", "severity 0", "in step 1, Command("),
@@ -54,8 +54,8 @@ WRONG = [
     ("world", "NoisyLook", "observing", "asked again"),
     ("world", "Reused", "observing", "changes in that step"),
     ("world", "Pushing", "safeguard", "it leaves Command("),
-    ("world", "Drifting", "reset between laps", "after other laps it says otherwise"),
-    ("world", "Endless", "observations", "segments lie between inf and inf"),
+    ("world", "Drifting", "reset between laps", "after other laps it differs"),
+    ("world", "Endless", "observations", "segments are between inf and inf"),
 ]
 
 
@@ -71,7 +71,7 @@ def test_what_is_right_passes(role, name, brief):
 @pytest.mark.usefixtures("their_parts")
 @pytest.mark.parametrize(("role", "name", "check", "found"), WRONG)
 def test_one_thing_wrong_fails_one_check(role, name, check, found, brief):
-    """The check that fails is the one about what is wrong; its line says what was found."""
+    """The check that fails is the one about what is wrong; its line has what was found."""
     options = {"share": 0.5} if name == "Taking" else None
     report = CHECKS[role](f"their_parts:{name}", options, brief)
     assert report.failed == (check,), report

@@ -33,6 +33,6 @@ def test_the_role_shows(part, role):
 
 @pytest.mark.usefixtures("their_parts")
 def test_what_is_not_a_part_is_asked_for():
-    """One line that says how to say it."""
-    with pytest.raises(InputError, match=r"say --role driver\|assistant"):
+    """One line that tells how to give it."""
+    with pytest.raises(InputError, match=r"give --role driver\|assistant"):
         guess_role("their_parts:WithoutAct", {}, Setting())

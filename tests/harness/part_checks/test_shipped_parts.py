@@ -76,7 +76,7 @@ def test_the_bullet_world_passes():
 
 
 def test_a_function_without_a_name_is_not_checked_elsewhere():
-    """A local factory is checked here; that it cannot be made elsewhere is said, and no failure."""
+    """A local factory is checked here; the other process is reported as not checked."""
 
     def local(setup):
         return ordinal_respondent(setup)

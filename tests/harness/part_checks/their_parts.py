@@ -368,36 +368,36 @@ class Agreeing:
     def __init__(self, setup):
         pass
 
-    def answer(self, questions, lived, rng):
+    def answer(self, questions, experience, rng):
         return tuple(int(rng.integers(3, 6)) for _ in questions)
 
 
 class Brief(Agreeing):
     """Leaves an answer out without a word."""
 
-    def answer(self, questions, lived, rng):
-        return super().answer(questions[1:], lived, rng)
+    def answer(self, questions, experience, rng):
+        return super().answer(questions[1:], experience, rng)
 
 
 class Between(Agreeing):
     """Answers between two points."""
 
-    def answer(self, questions, lived, rng):
+    def answer(self, questions, experience, rng):
         return tuple(3.5 for _ in questions)
 
 
 class Moody(Agreeing):
     """Answers as it likes."""
 
-    def answer(self, questions, lived, rng):
+    def answer(self, questions, experience, rng):
         return tuple(int(np.random.default_rng().integers(1, 6)) for _ in questions)
 
 
 class Confused(Agreeing):
     """Divides by the number of interventions."""
 
-    def answer(self, questions, lived, rng):
-        return 5 / lived.interventions
+    def answer(self, questions, experience, rng):
+        return 5 / experience.interventions
 
 
 class OpenFloor:
@@ -458,7 +458,7 @@ class Elsewhere(OpenFloor):
 
 
 class NoisyLook(OpenFloor):
-    """Measures anew when it is asked."""
+    """Measures again when it is asked."""
 
     def observe(self):
         self._look()

@@ -6,7 +6,7 @@ from contextlib import nullcontext
 
 import pytest
 
-from harness.running import runner
+from harness.running import runner, writer
 from harness.running import sessions as crew
 from harness.running.runner import Outcome, run_study
 from harness.running.sessions import attempt
@@ -165,9 +165,12 @@ def test_a_foreign_session_is_resume_command(here, make_run, tmp_path):
 
 
 def test_a_write_error_loses_nothing_that_was_finished(here, make_run, tmp_path, monkeypatch):
-    """No space left: the run ends with the system's error, and the same call resumes later."""
+    """No space left: the run ends with the system's error, and the same call resumes it later.
+
+    A session that is being written beside the one that fails is kept, too.
+    """
     run, out = make_run(participants=4), tmp_path / "s"
-    write, calls = runner.write_session, []
+    write, calls = writer.write_session, []
 
     def disk_full(folder, name, files):
         calls.append(name)
@@ -176,12 +179,13 @@ def test_a_write_error_loses_nothing_that_was_finished(here, make_run, tmp_path,
             raise OSError(errno.ENOSPC, "No space left on device", str(folder))
         write(folder, name, files)
 
-    monkeypatch.setattr(runner, "write_session", disk_full)
+    monkeypatch.setattr(writer, "write_session", disk_full)
     with pytest.raises(OSError, match="No space left"):
         run_study(run, out, 1)
-    assert sorted(p.name for p in (out / "sessions").glob("P*")) == calls[:2]
+    kept = calls[:2] + calls[3:]
+    assert sorted(p.name for p in (out / "sessions").glob("P*")) == kept
     assert not list(out.glob("*.parquet"))
-    assert run_study(run, out, 1) == Outcome(4, 2, 2, ())
+    assert run_study(run, out, 1) == Outcome(4, len(kept), 4 - len(kept), ())
     run_study(run, tmp_path / "undisturbed", 1)
     assert record(out) == record(tmp_path / "undisturbed")
 

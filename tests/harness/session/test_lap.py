@@ -274,7 +274,7 @@ def test_what_people_give_is_noted_before_it_acts(stage):
     lap, _, keeper, diary = stage("demonstrator")
 
     class Notes:
-        def tick(self, command, demonstrator, timing):
+        def tick(self, command, demonstrator, timing, telemetry):
             diary.append(("note", command, demonstrator, timing))
 
     lap._journal = Notes()

@@ -25,7 +25,7 @@ def journaled(every_stage, toy_world, tmp_path):
 
 def again(run, world, path):
     """Replay a journal."""
-    return replay(read_journal(path), run, 1, world, make_parts(run, 1))
+    return replay(read_journal(path), run, 1, world)
 
 
 def test_a_journal_changes_nothing(every_stage, toy_world, journaled):

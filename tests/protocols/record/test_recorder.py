@@ -17,6 +17,7 @@ _NUMBER = st.floats(allow_nan=False, allow_infinity=False, width=64)
 _BY_TYPE = {
     pa.float64(): _NUMBER,
     pa.int8(): st.sampled_from([-1, 1]),
+    pa.int16(): st.integers(0, 2**15 - 1),
     pa.int32(): st.integers(0, 2**31 - 1),
     pa.bool_(): st.booleans(),
     pa.string(): st.text(st.characters(exclude_categories=("Cs",)), max_size=5),

@@ -1,0 +1,241 @@
+"""A BIDS dataset of motion recordings (Motion-BIDS): a lap is a recording of its own.
+
+Specification: https://bids-specification.readthedocs.io/ (1.10, modality motion). Check a copy with
+``bids-validator-deno FOLDER``.
+"""
+
+import json
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pyarrow as pa
+
+from analysis.export.content import Content, LapSteps, Table
+from analysis.export.delimited import Dialect, header_line, lines
+from analysis.export.field import Field
+from analysis.export.readme import LICENCE_FILE, README_FILE, STUDY_FILE, readme, study_text
+from analysis.export.registry import Tell
+from lad.inputs import INPUT_NAMES, N_SEGMENTS
+
+BIDS_VERSION = "1.10.0"
+SYSTEM = "wheelchair"
+POINT = "axle"
+
+TSV = Dialect(separator="\t", missing="n/a")
+"""As BIDS has tables: tabulators, and ``n/a`` for what is missing."""
+
+_SAMPLES = Dialect(separator="\t", missing="n/a", header=False)
+"""As Motion-BIDS has samples: without a first line."""
+
+_HOW = """\
+A BIDS dataset (motion). A lap is a recording: `sub-P0001/motion/*_motion.tsv` has a line per
+control step and no first line; `*_channels.tsv` names its columns in their order. One more line
+has the state after the last step. The heading is `ORNT` about `z`. Lap times and conditions are in
+`sub-*/sub-*_scans.tsv`, answers in `phenotype/`.
+
+```
+pip install bids-validator-deno
+bids-validator-deno . --ignoreWarnings
+```
+"""
+
+
+class Channel(NamedTuple):
+    """A column of a recording: step columns at the start and at the end of a step, and its kind."""
+
+    column: str
+    after: str | None
+    kind: str
+    component: str
+    unit: str
+
+
+_STATE = (
+    Channel("x_m", "result_x_m", "POS", "x", "m"),
+    Channel("y_m", "result_y_m", "POS", "y", "m"),
+    Channel("heading_rad", "result_heading_rad", "ORNT", "z", "rad"),
+    Channel("velocity_v", "result_v", "VEL", "x", "m/s"),
+    Channel("velocity_w", "result_w", "GYRO", "z", "rad/s"),
+)
+_COMMANDS = (
+    *(f"{of}_{part}" for of in ("intent", "user", "arbitrated", "executed") for part in "vw"),
+    *("would_v", "would_w", "mean_v", "mean_w"),
+)
+_NUMBERS = ("h", "h_would", "p_help", "variance", "arc_m", "offset_m", "clearance_m", "t_s")
+
+CHANNELS: tuple[Channel, ...] = (
+    *_STATE,
+    *(Channel(n, None, "MISC", "n/a", "rad/s" if n.endswith("w") else "m/s") for n in _COMMANDS),
+    *(
+        Channel(name, f"last_segment_{i:02d}", "MISC", "n/a", "m")
+        for i, name in enumerate(INPUT_NAMES[-N_SEGMENTS:])
+    ),
+    *(
+        Channel(n, None, "MISC", "n/a", "m" if n.endswith("_m") else "s" if n == "t_s" else "n/a")
+        for n in _NUMBERS
+    ),
+)
+"""What a recording holds, in the order of its columns."""
+
+
+def write(content: Content, folder: Path, tell: Tell) -> None:
+    """Write a dataset into an empty folder."""
+    _write_json(folder / "dataset_description.json", _description(content))
+    _write_people(content, folder)
+    _write_answers(content, folder)
+    scans: dict[str, list[dict[str, Any]]] = {}
+    for lap in content.laps_with_steps():
+        participant = str(lap.lap["participant"])
+        tell(f"Steps of {participant}, lap {lap.lap['lap']}")
+        name = _write_recording(content, folder, lap)
+        scans.setdefault(participant, []).append({"filename": name, **lap.lap})
+    for participant, rows in scans.items():
+        _write_scans(content, folder, participant, rows)
+    fields = {f.name: f for f in content.laps.fields}
+    described = {n: _described(f) for n, f in fields.items() if n in _SCAN_COLUMNS}
+    _write_json(folder / "scans.json", described)
+    (folder / README_FILE).write_text(readme(content, _HOW), encoding="utf-8")
+    (folder / LICENCE_FILE).write_text(content.licence.text, encoding="utf-8")
+    (folder / "sourcedata").mkdir()
+    (folder / "sourcedata" / STUDY_FILE).write_text(study_text(content), encoding="utf-8")
+
+
+_SCAN_COLUMNS = ("lap", "condition", "practice", "completed", "end_reason", "lap_time_s",
+                 "collisions", "assisted_fraction")  # fmt: skip
+
+
+def label(text: str) -> str:
+    """Return a name as BIDS file names have it: letters and digits only.
+
+    Examples
+    --------
+    >>> label("human-assisted")
+    'humanassisted'
+    """
+    return "".join(c for c in text if c.isascii() and c.isalnum())
+
+
+def _description(content: Content) -> dict[str, Any]:
+    return {
+        "Name": content.study.protocol.title,
+        "BIDSVersion": BIDS_VERSION,
+        "DatasetType": "raw",
+        "License": content.licence.name,
+        "GeneratedBy": [{"Name": "lad-study"}],
+    }
+
+
+def _write_people(content: Content, folder: Path) -> None:
+    table, fields = content.participants.rows, content.participants.fields
+    ids = [f"sub-{label(name)}" for name in table["participant"].to_pylist()]
+    renamed = table.drop_columns(["participant"]).add_column(0, "participant_id", pa.array(ids))
+    _write_tsv(folder / "participants.tsv", renamed)
+    _write_json(folder / "participants.json", {f.name: _described(f) for f in fields[1:]})
+
+
+def _write_answers(content: Content, folder: Path) -> None:
+    """Write one file per instrument: a line per participant, a column per lap and item."""
+    surveys: Table = content.surveys
+    for instrument in content.study.instruments:
+        answers: dict[str, dict[str, Any]] = {}
+        columns: dict[str, dict[str, Any]] = {}
+        for row in surveys.rows.to_pylist():
+            if row["instrument"] != instrument.name:
+                continue
+            name = f"lap{row['lap']}_{row['item']}"
+            given = (row["response"], row["response_number"], row.get("response_text"))
+            answer = next((value for value in given if value is not None), None)
+            answers.setdefault(f"sub-{label(row['participant'])}", {})[name] = answer
+            item = instrument.item(row["item"])
+            columns[name] = {
+                "Description": f"{item.text} (after lap {row['lap']}, {row['condition']})"
+            }
+            if item.answer == "point":
+                labels = {str(i): text for i, text in enumerate(instrument.anchors, start=1)}
+                columns[name]["Levels"] = labels
+        if not answers:
+            continue
+        (folder / "phenotype").mkdir(exist_ok=True)
+        path = folder / "phenotype" / f"{label(instrument.name)}.tsv"
+        rows = [{"participant_id": n, **{c: a.get(c) for c in columns}} for n, a in answers.items()]
+        text = [{k: None if v is None else str(v) for k, v in row.items()} for row in rows]
+        names = ["participant_id", *columns]
+        _write_tsv(path, pa.Table.from_pylist(text, pa.schema([(n, pa.string()) for n in names])))
+        about = {"Description": instrument.title}
+        _write_json(path.with_suffix(".json"), {"MeasurementToolMetadata": about, **columns})
+
+
+def _write_recording(content: Content, folder: Path, lap: LapSteps) -> str:
+    """Write a lap's files; return the recording's name from the participant's folder."""
+    subject, task = label(str(lap.lap["participant"])), label(str(lap.lap["condition"]))
+    stem = f"sub-{subject}_task-{task}_tracksys-{SYSTEM}_run-{lap.lap['lap']}"
+    place = folder / f"sub-{subject}" / "motion"
+    place.mkdir(parents=True, exist_ok=True)
+    samples = samples_of(lap)
+    (place / f"{stem}_motion.tsv").write_bytes(lines(samples, _SAMPLES))
+    rows = [
+        {"name": c.column, "component": c.component, "type": c.kind, "tracked_point": POINT,
+         "units": c.unit}
+        for c in CHANNELS
+    ]  # fmt: skip
+    _write_tsv(place / f"{stem}_channels.tsv", pa.Table.from_pylist(rows))
+    _write_json(place / f"{stem}_motion.json", _recording(content, lap))
+    return f"motion/{stem}_motion.tsv"
+
+
+def samples_of(lap: LapSteps) -> pa.Table:
+    """Return a lap's samples: a row per control step, and one for the state after the last."""
+    arrays = {}
+    for channel in CHANNELS:
+        column = lap.steps[channel.column]
+        last = None
+        if channel.after in lap.steps.column_names and len(column):
+            last = lap.steps[channel.after][-1].as_py()
+        elif channel.after is not None:
+            last = lap.lap[channel.after]
+        ending = pa.array([last], column.type)
+        arrays[channel.column] = pa.chunked_array([*column.chunks, ending], column.type)
+    return pa.table(arrays)
+
+
+def _recording(content: Content, lap: LapSteps) -> dict[str, Any]:
+    kinds = [channel.kind for channel in CHANNELS]
+    return {
+        "TaskName": label(str(lap.lap["condition"])),
+        "TaskDescription": f"A lap of {content.study.course.name}, {lap.lap['condition']}",
+        "TrackingSystemName": SYSTEM,
+        "SamplingFrequency": round(1 / content.study.protocol.control_period_s, 9),
+        "RecordingType": "continuous",
+        "TrackedPointsCount": 1,
+        "MotionChannelCount": len(CHANNELS),
+        **{f"{kind}ChannelCount": kinds.count(kind) for kind in sorted(set(kinds))},
+        "MissingValues": "n/a",
+        "SpatialAxes": "FLU",
+    }
+
+
+def _write_scans(
+    content: Content, folder: Path, participant: str, rows: list[dict[str, Any]]
+) -> None:
+    types = {f.name: f.type for f in content.laps.fields}
+    schema = pa.schema([("filename", pa.string()), *((n, types[n]) for n in _SCAN_COLUMNS)])
+    subject = f"sub-{label(participant)}"
+    kept = [{name: row[name] for name in schema.names} for row in rows]
+    _write_tsv(folder / subject / f"{subject}_scans.tsv", pa.Table.from_pylist(kept, schema))
+
+
+def _described(field: Field) -> dict[str, Any]:
+    entry: dict[str, Any] = {"Description": field.description}
+    if field.unit:
+        entry["Units"] = field.unit
+    if field.values and field.kind == "string":
+        entry["Levels"] = {str(value): str(value) for value in field.values}
+    return entry
+
+
+def _write_tsv(path: Path, table: pa.Table) -> None:
+    path.write_bytes(header_line(table.column_names, TSV) + lines(table, TSV))
+
+
+def _write_json(path: Path, data: Any) -> None:
+    path.write_text(json.dumps(data, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

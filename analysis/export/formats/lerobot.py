@@ -1,0 +1,350 @@
+"""A LeRobot dataset, version 3: a lap is an episode, a control step a frame.
+
+Format: https://huggingface.co/docs/lerobot/lerobot-dataset-v3. Its readers take no missing value
+and no time but ``frame_index / fps``: a missing number is 0 with a mask beside it, and the recorded
+time is a feature of its own.
+"""
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
+from numpy.typing import NDArray
+
+from analysis.export.content import Content, LapSteps
+from analysis.export.readme import write_about
+from analysis.export.registry import Tell
+from lad.inputs import INPUT_NAMES
+from protocols.files.errors import InputError
+
+FRAMES_PER_FILE = 200_000
+"""About 50 MB; the format's own writer begins a new file at 100 MB."""
+
+EPISODES_PER_PART = 100
+"""How many episodes' rows are in memory before they are written."""
+
+VECTORS: dict[str, tuple[str, ...]] = {
+    "observation.state": INPUT_NAMES,
+    "action": ("executed_v", "executed_w"),
+    "command.driver": ("intent_v", "intent_w"),
+    "command.limited": ("user_v", "user_w"),
+    "command.arbitrated": ("arbitrated_v", "arbitrated_w"),
+    "command.demonstrator": ("would_v", "would_w"),
+    "command.model": ("mean_v", "mean_w"),
+    "pose.start": ("x_m", "y_m", "heading_rad"),
+    "pose.end": ("result_x_m", "result_y_m", "result_heading_rad"),
+    "velocity.end": ("result_v", "result_w"),
+}
+"""Features of more than one number, and the step columns they are made of."""
+
+MASKED = ("command.demonstrator", "command.model", "pose.end", "takeover", "takeover.would",
+          "model.p_help")  # fmt: skip
+"""Features that can be missing; each has a truth value ``NAME.given`` beside it."""
+
+SCALARS = {
+    "takeover": ("h", "float32"),
+    "takeover.would": ("h_would", "float32"),
+    "model.p_help": ("p_help", "float32"),
+    "recorded_time_s": ("t_s", "float32"),
+    "clearance_m": ("clearance_m", "float32"),
+    "arc_m": ("arc_m", "float32"),
+    "contact": ("contact", "bool"),
+    "safeguarded": ("safeguarded", "bool"),
+}
+"""Features of one number: their step column and their type."""
+
+_ABOUT_LAPS = ("participant", "lap", "condition", "practice", "completed", "lap_time_s")
+
+INDICES = ("timestamp", "frame_index", "episode_index", "index", "task_index")
+
+_DATA = "data/chunk-000/file-{:03d}.parquet"
+_EPISODES = "meta/episodes/chunk-000/file-000.parquet"
+
+_HOW = """\
+A LeRobot dataset (v3.0): an episode is a lap, a frame a control step.
+
+```
+pip install lerobot-doctor
+lerobot-doctor check . --ci
+```
+
+- `action` is the command that was **executed** (v in m/s, w in rad/s, right turns negative). What
+  the driver wanted, what the limitation left of it, what the demonstrator and the model would have
+  done are in `command.*`. For learning from the demonstrator use `command.demonstrator` where
+  `command.demonstrator.given` is true.
+- `observation.state` holds the 19 inputs of the paper's model: the driver's command as limited,
+  velocities, 15 laser segments (minima, not rays).
+- `pose.*` is ground truth: no policy for a real wheelchair has it.
+- Missing numbers are 0; `NAME.given` says where a number was there.
+- `timestamp` is `frame_index / fps`, as the format demands; `recorded_time_s` is the step's time.
+- `meta/episodes` has participant, lap and condition of each episode. Condition is the task.
+"""
+
+
+@dataclass
+class _Moments:
+    """Smallest, largest, sum and sum of squares of a feature, added up lap by lap."""
+
+    count: int = 0
+    low: NDArray[np.float64] | None = None
+    high: NDArray[np.float64] | None = None
+    mean: NDArray[np.float64] | None = None
+    square: NDArray[np.float64] | None = None  # sum of squared distances from the mean
+
+    def add(self, values: NDArray[np.float64]) -> None:
+        """Add one lap: shape (frames, numbers)."""
+        low, high, mean = values.min(axis=0), values.max(axis=0), values.mean(axis=0)
+        square = ((values - mean) ** 2).sum(axis=0)
+        if self.mean is None or self.low is None or self.high is None or self.square is None:
+            self.count, self.low, self.high = len(values), low, high
+            self.mean, self.square = mean, square
+            return
+        total = self.count + len(values)
+        apart = mean - self.mean
+        self.low, self.high = np.minimum(self.low, low), np.maximum(self.high, high)
+        self.square = self.square + square + apart**2 * (self.count * len(values) / total)
+        self.mean = self.mean + apart * (len(values) / total)
+        self.count = total
+
+    def as_stats(self) -> dict[str, list[Any]]:
+        """Return them as the format has them."""
+        if self.mean is None or self.low is None or self.high is None or self.square is None:
+            return {}
+        std = np.sqrt(self.square / self.count)
+        parts = {"min": self.low, "max": self.high, "mean": self.mean, "std": std}
+        return {name: part.tolist() for name, part in parts.items()} | {"count": [self.count]}
+
+
+def write(content: Content, folder: Path, tell: Tell) -> None:
+    """Write a dataset into an empty folder."""
+    fps = frames_per_second(content.study.protocol.control_period_s)
+    tasks = {str(name): i for i, name in enumerate(sorted(content.study.protocol.conditions))}
+    sentences = {name: task_sentence(content, name) for name in tasks}
+    with _Dataset(folder, fps, tasks, sentences) as dataset:
+        for lap in content.laps_with_steps():
+            tell(f"Steps of {lap.lap['participant']}, lap {lap.lap['lap']}")
+            if len(lap.steps):
+                dataset.add(lap)
+    if not dataset.episodes:
+        raise InputError(f"{content.study.folder}: no lap has steps; there are no frames to export")
+    names = pd.Index(list(sentences.values()), name="task")
+    frame = pd.DataFrame({"task_index": range(len(tasks))}, index=names)
+    frame.to_parquet(folder / "meta" / "tasks.parquet")
+    stats = {name: moments.as_stats() for name, moments in dataset.moments.items()}
+    _write_json(folder / "meta" / "stats.json", stats)
+    _write_json(folder / "meta" / "info.json", _info(fps, len(tasks), dataset))
+    write_about(content, folder, _HOW)
+
+
+def frames_per_second(period_s: float) -> int:
+    """Return how many control steps a second has.
+
+    Raises
+    ------
+    InputError
+        When it is no whole number: the format knows no other.
+
+    Examples
+    --------
+    >>> frames_per_second(0.1)
+    10
+    """
+    fps = round(1 / period_s)
+    if abs(fps * period_s - 1) > 1e-9:
+        raise InputError(
+            f"--format lerobot: control steps of {period_s:g} s are no whole number of frames a "
+            "second; allowed: another format"
+        )
+    return fps
+
+
+def task_sentence(content: Content, condition: str) -> str:
+    """Return a condition as the dataset's tasks name it."""
+    return f"Drive a lap of {content.study.course.name}: {condition}"
+
+
+class _Parts:
+    """A Parquet file that is written part by part; its columns are those of the first part."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._writer: pq.ParquetWriter | None = None
+
+    def add(self, table: pa.Table) -> None:
+        """Write the next rows."""
+        if self._writer is None:
+            self._path.parent.mkdir(parents=True, exist_ok=True)
+            self._writer = pq.ParquetWriter(self._path, table.schema)
+        self._writer.write_table(table)
+
+    def close(self) -> None:
+        """End the file."""
+        if self._writer is not None:
+            self._writer.close()
+        self._writer = None
+
+
+class _Dataset:
+    """The frames and episodes of a dataset while they are written, lap after lap.
+
+    Attributes
+    ----------
+    episodes, frames
+        How many have been written.
+    moments
+        Of every feature, over all frames so far.
+    """
+
+    def __init__(
+        self, folder: Path, fps: int, tasks: Mapping[str, int], sentences: Mapping[str, str]
+    ) -> None:
+        self._folder, self._fps, self._tasks, self._sentences = folder, fps, tasks, sentences
+        self.episodes = self.frames = 0
+        self.moments: dict[str, _Moments] = {}
+        self._file = self._frames_in_file = 0
+        self._pending: list[dict[str, Any]] = []
+        self._data = _Parts(folder / _DATA.format(0))
+        self._about = _Parts(folder / _EPISODES)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._flush()
+        self._data.close()
+        self._about.close()
+
+    def add(self, lap: LapSteps) -> None:
+        """Write one lap."""
+        if self._frames_in_file >= FRAMES_PER_FILE:
+            self._data.close()
+            self._file, self._frames_in_file = self._file + 1, 0
+            self._data = _Parts(self._folder / _DATA.format(self._file))
+        columns = dict(_columns(lap.steps)) | self._indices(lap)
+        self._data.add(pa.table({name: _array(values) for name, values in columns.items()}))
+        self._pending.append(self._episode(lap, columns))
+        self.episodes += 1
+        self.frames += len(lap.steps)
+        self._frames_in_file += len(lap.steps)
+        if len(self._pending) == EPISODES_PER_PART:
+            self._flush()
+
+    def _flush(self) -> None:
+        if self._pending:
+            self._about.add(_episode_table(self._pending))
+            self._pending.clear()
+
+    def _indices(self, lap: LapSteps) -> dict[str, NDArray[Any]]:
+        count, task = len(lap.steps), self._tasks[str(lap.lap["condition"])]
+        frames = np.arange(count, dtype=np.int64)
+        return {
+            "timestamp": (frames / self._fps).astype(np.float32),
+            "frame_index": frames,
+            "episode_index": np.full(count, self.episodes, dtype=np.int64),
+            "index": frames + self.frames,
+            "task_index": np.full(count, task, dtype=np.int64),
+        }
+
+    def _episode(self, lap: LapSteps, columns: Mapping[str, NDArray[Any]]) -> dict[str, Any]:
+        count = len(lap.steps)
+        row: dict[str, Any] = {
+            "episode_index": self.episodes,
+            "tasks": [self._sentences[str(lap.lap["condition"])]],
+            "length": count,
+            "data/chunk_index": 0,
+            "data/file_index": self._file,
+            "dataset_from_index": self.frames,
+            "dataset_to_index": self.frames + count,
+            "meta/episodes/chunk_index": 0,
+            "meta/episodes/file_index": 0,
+            **{name: lap.lap[name] for name in _ABOUT_LAPS},
+        }
+        for name, values in columns.items():
+            numbers = values.reshape(count, -1).astype(np.float64)
+            self.moments.setdefault(name, _Moments()).add(numbers)
+            own = _Moments()
+            own.add(numbers)
+            row |= {f"stats/{name}/{key}": value for key, value in own.as_stats().items()}
+        return row
+
+
+def _episode_table(rows: list[dict[str, Any]]) -> pa.Table:
+    """Return episodes as a table; a lap time may be missing in every one of them."""
+    table = pa.Table.from_pylist(rows)
+    at = table.column_names.index("lap_time_s")
+    return table.set_column(at, "lap_time_s", table["lap_time_s"].cast(pa.float64()))
+
+
+def _columns(steps: pa.Table) -> Iterator[tuple[str, NDArray[Any]]]:
+    for name, parts in VECTORS.items():
+        numbers = np.stack([_numbers(steps, part) for part in parts], axis=1)
+        yield from _masked(name, numbers)
+    for name, (column, kind) in SCALARS.items():
+        if kind == "bool":
+            yield name, _numbers(steps, column) > 0
+        else:
+            yield from _masked(name, _numbers(steps, column))
+
+
+def _numbers(steps: pa.Table, column: str) -> NDArray[np.float64]:
+    """Return a column as numbers, missing ones NaN."""
+    values = steps[column]
+    if pa.types.is_boolean(values.type):
+        values = values.cast(pa.int8())
+    numbers: NDArray[np.float64] = values.cast(pa.float64()).to_numpy(zero_copy_only=False)
+    return numbers
+
+
+def _masked(name: str, numbers: NDArray[np.float64]) -> Iterator[tuple[str, NDArray[Any]]]:
+    there: NDArray[np.bool_] = np.isfinite(numbers)
+    yield name, np.where(there, numbers, 0.0).astype(np.float32)
+    if name in MASKED:
+        yield f"{name}.given", np.asarray(there.reshape(len(there), -1).all(axis=1))
+
+
+def _array(values: NDArray[Any]) -> pa.Array:
+    if values.ndim == 1:
+        return pa.array(values)
+    return pa.FixedSizeListArray.from_arrays(pa.array(values.ravel()), values.shape[1])
+
+
+def _info(fps: int, tasks: int, done: _Dataset) -> dict[str, Any]:
+    return {
+        "codebase_version": "v3.0",
+        "robot_type": "wheelchair",
+        "total_episodes": done.episodes,
+        "total_frames": done.frames,
+        "total_tasks": tasks,
+        "chunks_size": 1000,
+        "data_files_size_in_mb": 100,
+        "video_files_size_in_mb": 500,
+        "fps": fps,
+        "splits": {"train": f"0:{done.episodes}"},
+        "data_path": "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet",
+        "video_path": None,
+        "features": dict(_features()),
+    }
+
+
+def _features() -> Iterator[tuple[str, dict[str, Any]]]:
+    for name, parts in VECTORS.items():
+        yield name, {"dtype": "float32", "shape": [len(parts)], "names": list(parts)}
+        if name in MASKED:
+            yield f"{name}.given", {"dtype": "bool", "shape": [1], "names": None}
+    for name, (_, kind) in SCALARS.items():
+        yield name, {"dtype": kind, "shape": [1], "names": None}
+        if name in MASKED:
+            yield f"{name}.given", {"dtype": "bool", "shape": [1], "names": None}
+    for name in INDICES:
+        kind = "float32" if name == "timestamp" else "int64"
+        yield name, {"dtype": kind, "shape": [1], "names": None}
+
+
+def _write_json(path: Path, data: Any) -> None:
+    path.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")

@@ -1,0 +1,1 @@
+"""Recordings of a real wheelchair become a study: the record of laps that nobody simulated."""

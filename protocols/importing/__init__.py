@@ -1,0 +1,1 @@
+"""What others recorded, drew or asked becomes a study, a course or answers."""

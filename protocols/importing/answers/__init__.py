@@ -1,0 +1,1 @@
+"""Exports of questionnaire services become the answers of a study."""

@@ -1,0 +1,155 @@
+"""Write the answers of a questionnaire export into a study that was recorded elsewhere."""
+
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from protocols.files.errors import InputError
+from protocols.files.suggestion import allowed
+from protocols.importing.answers.mapping import AnswersMapping
+from protocols.importing.answers.matching import Key, match
+from protocols.importing.answers.sheet import read_sheet
+from protocols.importing.mapping_file import read_mapping
+from protocols.instrument import Instrument
+from protocols.questions import asked_items
+from protocols.record.atomic import write_whole
+from protocols.record.merge import SURVEYS_TABLE
+from protocols.record.parquet import parquet_bytes
+from protocols.record.reader import Study, open_study
+from protocols.record.rows import SurveyRow, response_fields
+from protocols.record.tables import SURVEY_SCHEMA
+
+
+@dataclass(frozen=True, slots=True)
+class ImportedAnswers:
+    """What became of a file.
+
+    Attributes
+    ----------
+    rows
+        How many questions are on record now, those of the file.
+    answered
+        How many of them have an answer.
+    unmatched
+        What of the file belongs to nothing in the study, and what of the study is not in the file,
+        in words.
+    """
+
+    rows: int
+    answered: int
+    unmatched: tuple[str, ...]
+
+
+def import_answers(file: Path, mapping_path: Path, study_dir: Path) -> ImportedAnswers:
+    """Add the answers of one instrument to a study.
+
+    Questions that the protocol asks and the file does not answer are recorded as not answered.
+    Answers to other instruments stay; those to this one are replaced.
+
+    Parameters
+    ----------
+    file
+        Questionnaire export (CSV).
+    mapping_path
+        What is where in it (``mapping.AnswersMapping``).
+    study_dir
+        A study that was recorded elsewhere.
+
+    Raises
+    ------
+    InputError
+        When something cannot be read or matched; names the place. The study is as it was then.
+    """
+    mapping, document = read_mapping(mapping_path, AnswersMapping)
+    study = open_study(study_dir)
+    if not study.elsewhere:
+        raise InputError(
+            f"{study_dir}: recorded its answers itself; allowed: a study with origin elsewhere"
+        )
+    instrument = _instrument(study, mapping, str(document.source))
+    laps = {(row["participant"], row["lap"]): row["condition"] for row in study.laps.to_pylist()}
+    people = frozenset(study.participants["participant"].to_pylist())
+    found = match(read_sheet(file, mapping), mapping, instrument, people)
+    nowhere = sorted({key[:2] for key in found.answers} - laps.keys())
+    planned = _planned(study, instrument)
+    answers = dict.fromkeys(planned) | {
+        key: value for key, value in found.answers.items() if key[:2] in laps
+    }
+    # A wide file has a cell for every question, asked or not.
+    answers = {k: v for k, v in answers.items() if v is not None or k in planned or not planned}
+    in_order = sorted(answers.items(), key=lambda entry: _order(entry[0], instrument))
+    rows = [
+        SurveyRow(
+            participant=who, lap=lap, condition=laps[who, lap], instrument=instrument.name,
+            item=item, **_response(instrument, item, value, file),
+        )
+        for (who, lap, item), value in in_order
+    ]  # fmt: skip
+    _write(study, instrument, rows)
+    silent = sorted(people - {key[0] for key in found.answers})
+    words = [
+        *found.unmatched,
+        *(f"{who} did not drive lap {lap}" for who, lap in nowhere),
+        *(f"{name} is not in the file" for name in silent),
+    ]
+    answered = sum(value is not None for value in answers.values())
+    return ImportedAnswers(len(rows), answered, tuple(words))
+
+
+def _instrument(study: Study, mapping: AnswersMapping, source: str) -> Instrument:
+    names = [instrument.name for instrument in study.instruments]
+    for instrument in study.instruments:
+        if instrument.name == mapping.instrument:
+            return instrument
+    raise InputError(
+        f"{source}: instrument: the study asks no {mapping.instrument!r}; "
+        f"{allowed(mapping.instrument, names)}"
+    )
+
+
+def _planned(study: Study, instrument: Instrument) -> set[Key]:
+    """Return the questions that the protocol asks after the laps that were driven."""
+    asked = {
+        (lap, item)
+        for lap, planned in enumerate(study.protocol.laps)
+        for survey in planned.survey
+        if survey.instrument == instrument.name
+        for item in asked_items(study.protocol, planned, survey, instrument)
+    }
+    driven = study.laps.select(["participant", "lap"]).to_pylist()
+    return {
+        (row["participant"], row["lap"], item)
+        for row in driven
+        for lap, item in asked
+        if lap == row["lap"]
+    }
+
+
+def _order(key: Key, instrument: Instrument) -> tuple[str, int, int]:
+    return key[0], key[1], instrument.ids(assisted=True).index(key[2])
+
+
+def _response(
+    instrument: Instrument, item: str, value: float | str | None, file: Path
+) -> dict[str, Any]:
+    try:
+        return response_fields(instrument.item(item), value, instrument.points)
+    except ValueError as error:
+        raise InputError(f"{file}: {item}: {error}") from None
+
+
+def _write(study: Study, instrument: Instrument, rows: list[SurveyRow]) -> None:
+    table = pa.Table.from_pylist([asdict(row) for row in rows], schema=SURVEY_SCHEMA)
+    path = study.folder / SURVEYS_TABLE
+    if path.exists():
+        there = study.surveys.select(SURVEY_SCHEMA.names).cast(SURVEY_SCHEMA)
+        others = [name != instrument.name for name in there["instrument"].to_pylist()]
+        table = pa.concat_tables([there.filter(pa.array(others, pa.bool_())), table])
+    order = [("participant", "ascending"), ("lap", "ascending")]
+    try:
+        write_whole(path, parquet_bytes(table.sort_by(order)))
+    except (OSError, pq.lib.ArrowException) as error:
+        raise InputError(f"{path}: cannot be written: {error}") from None

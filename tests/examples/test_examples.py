@@ -1,0 +1,91 @@
+"""The examples read the exports as they are."""
+
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from analysis.export.write import export_study
+from harness.running.runner import run_study
+from harness.session.study_run import StudyRun
+from protocols.load import resolve_study
+from protocols.record.reader import open_study
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+R = shutil.which("Rscript")
+
+PROTOCOL = """\
+schema: 1
+name: example
+title: An example
+cohort: {participants: 2}
+conditions:
+  baseline: {}
+  limited: {limitation: {right_turn_rad_s: 0.15}}
+laps: [{condition: baseline}, {condition: limited}]
+"""
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    """Return a study of two people who drove two laps."""
+    folder = tmp_path_factory.mktemp("example")
+    (folder / "protocol.yaml").write_text(PROTOCOL)
+    run = StudyRun(resolve_study(str(folder / "protocol.yaml")), 1)
+    run_study(run, folder / "study", 1, lambda *_: None)
+    return open_study(folder / "study")
+
+
+def mean(study, condition):
+    """Return the mean lap time of a condition."""
+    times = [r["lap_time_s"] for r in study.laps.to_pylist() if r["condition"] == condition]
+    return sum(times) / len(times)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(R is None, reason="R is not installed")
+def test_the_r_script_says_what_the_limitation_costs(study, tmp_path):
+    """The difference is the record's."""
+    export_study(study.folder, "r", tmp_path / "r")
+    ended = subprocess.run(  # noqa: S603  # R itself
+        [str(R), str(EXAMPLES / "lap_times.R"), str(tmp_path / "r")],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ended.returncode == 0, ended.stderr
+    found = re.search(r"limited - baseline: (\S+) s \(n = (\d+)\)", ended.stdout)
+    wanted = mean(study, "limited") - mean(study, "baseline")
+    assert float(found[1]) == pytest.approx(wanted, abs=5e-4)
+    assert found[2] == "2"
+
+
+@pytest.mark.slow
+def test_the_notebook_runs_from_top_to_bottom(study, tmp_path, monkeypatch):
+    """Every cell, in order; its lap times are the record's."""
+    export_study(study.folder, "frictionless", tmp_path / "out")
+    monkeypatch.setenv("EXPORT", str(tmp_path / "out"))
+    notebook = json.loads((EXAMPLES / "pandas.ipynb").read_text())
+    space: dict[str, object] = {}
+    for cell in notebook["cells"]:
+        if cell["cell_type"] == "code":
+            exec("".join(cell["source"]), space)  # noqa: S102  # our own example
+    for condition in ("baseline", "limited"):
+        found = space["lap_times"].loc[condition, "mean"]
+        assert found == pytest.approx(mean(study, condition))
+    assert space["takeovers"].between(0, 1).all()
+
+
+def test_the_layouts_topics_are_exported():
+    """Every topic and field that the Foxglove layout shows is one that the export writes."""
+    mcap = pytest.importorskip("analysis.export.formats.mcap")
+    text = (EXAMPLES / "foxglove-layout.json").read_text()
+    layout = json.loads(text)
+    shown = set(re.findall(r'"(/[a-z_]+)[".]', text))
+    exported = {topic.name for topic in mcap.TOPICS} | {"/lap", "/tf_static"}
+    assert shown <= exported
+    panels = set(re.findall(r'"(\w+!\w+)"', json.dumps(layout["layout"])))
+    assert panels == set(layout["configById"])
