@@ -15,6 +15,9 @@ from analysis.results import StudyResults
 from analysis.roles import reference_condition
 from analysis.stats.result import TestResult
 
+_SMALL = 2.0
+"""Change in percent below which whole numbers would hide it."""
+
 
 def answer_section(results: StudyResults) -> Section:
     """Return the answers, each with its size and its certainty."""
@@ -68,14 +71,21 @@ def _size(lead: TestResult) -> str:
     change = 100 * math.expm1(lead.estimate)
     if not change:
         return "no difference"
-    return f"{percent(abs(change))} {'faster' if change < 0 else 'slower'}"
+    direction = "faster" if change < 0 else "slower"
+    return f"{percent(abs(change), _digits(change))} {direction}"
+
+
+def _digits(*changes: float) -> int:
+    """Return how many decimals changes in percent need to say something."""
+    return 1 if max(map(abs, changes)) < _SMALL else 0
 
 
 def _percent_interval(lead: TestResult) -> str:
     if not math.isfinite(lead.low):
         return "; ".join(lead.notes) or "no interval"
     low, high = (100 * math.expm1(end) for end in (lead.low, lead.high))
-    return f"95% interval {number(low, 0)} to {percent(high)} of the lap time"
+    digits = _digits(low, high)
+    return f"95% interval {number(low, digits)} to {percent(high, digits)} of the lap time"
 
 
 def _in_seconds(c: PairedComparison) -> str:
@@ -130,7 +140,7 @@ def _verdict(c: PairedComparison) -> str:
     if c.practice == "confounded":
         return (
             f"These laps were {direction}; no verdict on {c.condition} follows, because its place "
-            "in the session may have made them so."
+            "in the session is its own and may have done part of it."
         )
     if not _corrected(c):
         return (
