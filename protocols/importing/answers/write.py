@@ -123,7 +123,9 @@ def _planned(study: Study, instrument: Instrument) -> set[Key]:
         # Where participants have orders of their own, a lap is found by its condition.
         in_place = lap < len(laps) and laps[lap].condition == condition
         driven = laps[lap] if in_place else first.get(condition)
-        for survey in driven.survey if driven else ():
+        if driven is None:
+            continue
+        for survey in driven.survey:
             if survey.instrument == instrument.name:
                 items = asked_items(study.protocol, driven, survey, instrument)
                 found |= {(row["participant"], lap, item) for item in items}
