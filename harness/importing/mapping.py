@@ -5,7 +5,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from protocols.files.file_model import FileModel
+from protocols.files.file_model import FileModel, Name
 
 Topic = Annotated[str, Field(pattern=r"^[A-Za-z~/][A-Za-z0-9_/~]*$", max_length=200)]
 
@@ -118,11 +118,19 @@ class Marks(FileModel):
 
 
 class Person(FileModel):
-    """Who sat in the chair."""
+    """Who sat in the chair.
+
+    Attributes
+    ----------
+    laps
+        The conditions of the laps in the order in which this person drove them; null for the
+        protocol's order.
+    """
 
     participant: Annotated[str, Field(pattern=r"^P\d{4}$")]
     kind: Literal["live", "synthetic", "scripted"] = "live"
     consented: bool = True
+    laps: Annotated[tuple[Name, ...], Field(min_length=1, max_length=200)] | None = None
     age_years: Annotated[int, Field(ge=0, le=120)] | None = None
     gender: Literal["female", "male", "other", "undisclosed"] | None = None
     handedness: Literal["right", "left", "both", "undisclosed"] | None = None

@@ -36,11 +36,13 @@ from protocols.course.gates import GateCounter
 from protocols.course.obstacles import obstacle_boxes
 from protocols.exclusion import exclusion_reason
 from protocols.files.errors import InputError
+from protocols.files.suggestion import allowed
 from protocols.laps import PlannedLap
 from protocols.pose import Pose
 from protocols.record.rows import LapRow, ParticipantRow
 from protocols.record.session import RecordedLap, SessionRecord
 from protocols.resolved import ResolvedStudy
+from protocols.study import StudyProtocol
 
 START_AWAY_M = 2.0
 """A lap that begins farther from the course's start is named: frames may not fit."""
@@ -90,7 +92,7 @@ def read_session(
     streams = read_streams(path, topics(mapping), mapping.clock)
     cutting = _Cutting(path, mapping, study, streams)
     starts = _starts(path, mapping, streams[mapping.starts.topic])
-    planned = study.protocol.laps
+    planned = laps_driven(study.protocol, person, path)
     if len(starts) > len(planned):
         cutting.troubles.append(
             f"{path}: {len(starts)} laps begin; the protocol plans {len(planned)}: the rest is left"
@@ -111,14 +113,45 @@ def read_session(
         handedness=person.handedness,
         traits={},
         consented=person.consented,
-        completed=len(rows) == len(planned) and all(lap.completed for lap in rows),
-        laps_planned=len(planned),
+        completed=len(rows) == len(study.protocol.laps) and all(lap.completed for lap in rows),
+        laps_planned=len(study.protocol.laps),
         laps_driven=len(rows),
         excluded=reason is not None,
         exclusion_reason=reason,
     )
     model = saved(cutting.model) if any(lap.training for lap in rows) else None
     return ImportedSession(SessionRecord(row, tuple(laps), (), model), tuple(cutting.troubles))
+
+
+def laps_driven(protocol: StudyProtocol, person: Person, path: Path) -> tuple[PlannedLap, ...]:
+    """Return the laps that a person drove, as the protocol plans them, in the person's order.
+
+    Raises
+    ------
+    InputError
+        When the protocol has no lap of a condition left, or has an order for each participant and
+        the mapping does not say which.
+    """
+    if person.laps is None:
+        if protocol.orders.use != "fixed":
+            raise InputError(
+                f"{path}: {person.participant}: 'laps' is missing; the protocol has an order for "
+                "each participant: list the conditions in the order in which they were driven"
+            )
+        return protocol.laps
+    left = list(protocol.laps)
+    driven = []
+    for condition in person.laps:
+        lap = next((lap for lap in left if lap.condition == condition), None)
+        if lap is None:
+            names = list(dict.fromkeys(lap.condition for lap in left))
+            raise InputError(
+                f"{path}: {person.participant}: laps: the protocol has no lap of {condition!r} "
+                f"left; {allowed(condition, names)}"
+            )
+        left.remove(lap)
+        driven.append(lap)
+    return tuple(driven)
 
 
 def _starts(path: Path, mapping: BagMapping, stream: Stream) -> list[int]:

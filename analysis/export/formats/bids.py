@@ -142,13 +142,16 @@ def _write_answers(content: Content, folder: Path) -> None:
         for row in surveys.rows.to_pylist():
             if row["instrument"] != instrument.name:
                 continue
-            name = f"lap{row['lap']}_{row['item']}"
+            about_lap = row["lap"] >= 0
+            name = f"lap{row['lap']}_{row['item']}" if about_lap else f"session_{row['item']}"
             given = (row["response"], row["response_number"], row.get("response_text"))
             answer = next((value for value in given if value is not None), None)
             answers.setdefault(f"sub-{label(row['participant'])}", {})[name] = answer
             item = instrument.item(row["item"])
             columns[name] = {
                 "Description": f"{item.text} (after lap {row['lap']}, {row['condition']})"
+                if about_lap
+                else f"{item.text} (about the whole session)"
             }
             if item.answer == "point":
                 labels = {str(i): text for i, text in enumerate(instrument.anchors, start=1)}

@@ -30,7 +30,7 @@ gaps: read them as `Int8`.
 
 _REFERENCES = {
     "laps": (("participant",), "participants"),
-    "surveys": (("participant", "lap"), "laps"),
+    "surveys": (("participant",), "participants"),  # an answer may be about the whole session
     "steps": (("participant", "lap"), "laps"),
 }
 

@@ -14,6 +14,7 @@ from protocols.importing.answers.matching import Key, match
 from protocols.importing.answers.sheet import read_sheet
 from protocols.importing.mapping_file import read_mapping
 from protocols.instrument import Instrument
+from protocols.laps import PlannedLap
 from protocols.questions import asked_items
 from protocols.record.atomic import write_whole
 from protocols.record.merge import SURVEYS_TABLE
@@ -112,20 +113,23 @@ def _instrument(study: Study, mapping: AnswersMapping, source: str) -> Instrumen
 
 def _planned(study: Study, instrument: Instrument) -> set[Key]:
     """Return the questions that the protocol asks after the laps that were driven."""
-    asked = {
-        (lap, item)
-        for lap, planned in enumerate(study.protocol.laps)
-        for survey in planned.survey
-        if survey.instrument == instrument.name
-        for item in asked_items(study.protocol, planned, survey, instrument)
-    }
-    driven = study.laps.select(["participant", "lap"]).to_pylist()
-    return {
-        (row["participant"], row["lap"], item)
-        for row in driven
-        for lap, item in asked
-        if lap == row["lap"]
-    }
+    laps = study.protocol.laps
+    first: dict[str, PlannedLap] = {}
+    for planned in laps:
+        first.setdefault(planned.condition, planned)
+    found: set[Key] = set()
+    for row in study.laps.select(["participant", "lap", "condition"]).to_pylist():
+        lap, condition = row["lap"], row["condition"]
+        # Where participants have orders of their own, a lap is found by its condition.
+        in_place = lap < len(laps) and laps[lap].condition == condition
+        driven = laps[lap] if in_place else first.get(condition)
+        if driven is None:
+            continue
+        for survey in driven.survey:
+            if survey.instrument == instrument.name:
+                items = asked_items(study.protocol, driven, survey, instrument)
+                found |= {(row["participant"], lap, item) for item in items}
+    return found
 
 
 def _order(key: Key, instrument: Instrument) -> tuple[str, int, int]:

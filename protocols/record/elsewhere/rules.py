@@ -77,6 +77,6 @@ SURVEYS = TableRules(
     SURVEY_COLUMNS,
     ("participant", "lap", "condition", "instrument", "item", "response"),
     key=("participant", "lap", "instrument", "item"),
-    ranges={"lap": _COUNT},
+    ranges={"lap": Range(-1, None, "0 or more, or -1 for the whole session")},
 )
 STEPS = TableRules(STEP_COLUMNS, ("t_s", "x_m", "y_m"), clocks=("t_s",))

@@ -170,6 +170,24 @@ def test_what_cannot_be_is_one_line(change, lines, message, bring_in, tmp_path):
     assert not (tmp_path / "study").exists()
 
 
+def test_laps_in_a_persons_own_order(bring_in):
+    """The mapping says which condition came first; the protocol has the rules of each."""
+    _, study = bring_in(more="people: {session: {participant: P0007, laps: [helped, baseline]}}")
+    laps = study.laps.to_pylist()
+    assert [(lap["participant"], lap["condition"]) for lap in laps] == [
+        ("P0007", "helped"),
+        ("P0007", "baseline"),
+    ]
+    assert [lap["training"] for lap in laps] == [True, False]
+
+
+def test_a_lap_that_the_protocol_does_not_have_is_named(bring_in):
+    """With the conditions that are left."""
+    more = "people: {session: {participant: P0001, laps: [helped, helped]}}"
+    with pytest.raises(InputError, match="no lap of 'helped' left; allowed: baseline"):
+        bring_in(more=more)
+
+
 def test_two_clocks_are_named(bring_in):
     """Headers an hour behind the recorder, beside messages without headers."""
     with pytest.raises(InputError, match=r"two clocks: the headers of /\w+ are 3600\.0 s behind"):

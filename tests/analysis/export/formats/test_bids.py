@@ -5,9 +5,12 @@ import shutil
 
 import numpy as np
 import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
 from analysis.export.formats.bids import CHANNELS
+from analysis.export.write import export_study
 
 
 def accepted(checker, folder):
@@ -39,6 +42,20 @@ def test_a_damaged_copy_is_refused(damage, exported, checker, tmp_path):
     damage(copied)
     good, said = accepted(checker, copied)
     assert not good, said
+
+
+def test_answers_about_the_whole_session_have_a_column(make_study, tmp_path):
+    """Their lap is -1 in the record; the column says session."""
+    study = make_study(participants=2)
+    surveys = study.surveys
+    place = surveys.schema.get_field_index("lap")
+    laps = [-1 if lap == 4 else lap for lap in surveys["lap"].to_pylist()]
+    changed = surveys.set_column(place, surveys.schema.field(place), pa.array(laps, pa.int16()))
+    pq.write_table(changed, study.folder / "surveys.parquet")
+    export_study(study.folder, "bids", tmp_path / "out")
+    found = pd.read_csv(tmp_path / "out" / "phenotype" / "drivingassistance.tsv", sep="\t")
+    assert "session_Q5" in found
+    assert not [name for name in found if "-1" in name]
 
 
 def test_no_file_is_missing(exported, study):

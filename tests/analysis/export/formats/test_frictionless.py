@@ -22,7 +22,7 @@ def test_the_fields_own_checker_accepts_it(exported, checker):
     [
         ("laps.csv", ("finished", "fnished"), "constraint-error"),
         ("laps.csv", ("P0002,3", "P0002,2"), "primary-key"),
-        ("surveys.csv", ("P0001,1,", "P0099,1,"), "foreign-key"),
+        ("laps.csv", ("P0001,1,", "P0099,1,"), "foreign-key"),
         ("participants.csv", ("true", "perhaps"), "type-error"),
     ],
 )
