@@ -4,7 +4,6 @@ import time
 
 import numpy as np
 
-from harness.world.bullet_world import BulletWorld
 from lad.command import Command
 from protocols.course.schema import Course
 
@@ -20,6 +19,8 @@ def step_cost(course: Course) -> float:
     course
         The course; the chair drives gently straight on from its start.
     """
+    from harness.world.bullet_world import BulletWorld  # noqa: PLC0415  # loads PyBullet
+
     world = BulletWorld(course)
     best = float("inf")
     for _ in range(_ROUNDS):
