@@ -219,9 +219,8 @@ def test_runs_repeat_to_the_last_bit():
 
 def test_the_urdf_has_the_chairs_size():
     """What collides is the footprint that all other code uses; wheels are where they belong."""
-    root = ET.fromstring(
-        files("harness").joinpath("world", "assets", "wheelchair.urdf").read_text()
-    )  # noqa: S314 - our own file
+    urdf = files("harness").joinpath("world", "assets", "wheelchair.urdf")
+    root = ET.fromstring(urdf.read_text())  # noqa: S314 - our own file
     chassis = root.find("link[@name='chassis']")
     collision = next(c for c in chassis.findall("collision") if c.find("geometry/box") is not None)
     length, width, _ = map(float, collision.find("geometry/box").get("size").split())
