@@ -135,9 +135,10 @@ class Content:
 
     def laps_with_steps(self) -> Iterator[LapSteps]:
         """Yield every lap whose steps were recorded, in the order of participants and laps."""
-        for lap in self.laps.rows.to_pylist():
-            if self.study.has_steps(lap["participant"], lap["lap"]):
-                yield LapSteps(lap, self._steps(lap["participant"], lap["lap"]))
+        for part in self.laps.rows.to_batches(max_chunksize=100):
+            for lap in part.to_pylist():
+                if self.study.has_steps(lap["participant"], lap["lap"]):
+                    yield LapSteps(lap, self._steps(lap["participant"], lap["lap"]))
 
     @cached_property
     def unique_people(self) -> int:
