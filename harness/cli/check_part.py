@@ -1,5 +1,7 @@
 """`lad-study check-part`: whether a part does what a study will ask of it."""
 
+import os
+import sys
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -41,6 +43,8 @@ def check_part(
 
     Example: lad-study check-part gentle:gentle --option share=0.8
     """
+    # Last: a module here cannot hide an installed one. Other commands run nothing from here.
+    sys.path.append(os.path.realpath(os.curdir))
     options = dict(_read(given) for given in option or [])
     with progress_line() as tell:
         tell(f"Checking {part}")
