@@ -62,7 +62,7 @@ def worst_differences(
     worst = worst.reindex(index=differences.index, columns=[condition, reference])
     driven = worst.notna().all(axis=1)
     sign = worst[condition].astype(float).fillna(0) - worst[reference].astype(float).fillna(0)
-    either = driven & worst.fillna(value=False).astype(bool).any(axis=1)
+    either = driven & worst.eq(1).any(axis=1)
     finite = differences.abs().max()
     beyond = 2 * (finite if np.isfinite(finite) and finite > 0 else 1.0)
     return differences.where(~either, sign * beyond)

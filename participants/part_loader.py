@@ -36,12 +36,15 @@ def load_factory(role: Role, use: str, code: Sequence[PartBeside] = ()) -> Any:
     Raises
     ------
     InputError
-        When no part is called so, its code may not be run, cannot be imported, or has no such
-        function.
+        When no part is called so, its code may not be run, cannot be imported (also one of ours
+        whose extra is not installed), or has no such function.
     """
     shipped = shipped_factory(role, use)
     if shipped is not None:
-        return shipped_function(shipped)
+        try:
+            return shipped_function(shipped)
+        except ImportError as error:  # an extra that is not installed says how to get it
+            raise _unloadable(role, use, shipped, error) from error
     attribute = use.partition(":")[2]
     beside = next((part for part in code if part.use == use), None)
     if beside is not None:

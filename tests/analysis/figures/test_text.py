@@ -39,7 +39,7 @@ def test_an_item_and_an_anchor_are_drawn_as_written(text):
         name="odd", title=text, anchors=anchors, agreement_from=4, items=[{"id": "q", "text": text}]
     )
     row = {"item": "q", "text": text, "condition": "manual"}
-    counts = _counts(pd.Series([1.0, 3.0, 5.0]), 3, instrument)
+    counts = _counts(pd.Series([1.0, 3.0, 5.0]), 3, instrument, instrument.items[0])
     figure = likert_figure(pd.DataFrame([row | counts]), instrument)
     settle(figure)
     assert "".join(f"q  {text}".split()) in shown(figure)
