@@ -51,8 +51,8 @@ def blend(user: Command, assistance: Assistance) -> Command:
     Examples
     --------
     >>> surely = Assistance(helping=True, p_help=0.75, mean=Command(0.2, -0.5))
-    >>> blend(Command(0.6, -0.1), surely)
-    Command(v=0.3, w=-0.4)
+    >>> blend(Command(0.4, -0.1), surely)
+    Command(v=0.25, w=-0.4)
     """
     if assistance.p_help is None or assistance.mean is None:
         return takeover(user, assistance)

@@ -107,6 +107,7 @@ class LapRow:
     late_share: float | None = None
     input_age_p99_s: float | None = None
     last_segments: tuple[float, ...] | None = None
+    place: int | None = None
     tuned_steps: int | None = None
     tuned_signal_variance_when: float | None = None
     tuned_signal_variance_how: float | None = None
@@ -115,7 +116,6 @@ class LapRow:
     tuned_lengthscale_user_how: float | None = None
     tuned_lengthscale_velocity_how: float | None = None
     tuned_lengthscale_laser_how: float | None = None
-    place: int | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
