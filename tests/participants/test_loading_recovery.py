@@ -57,6 +57,7 @@ def declared(names):
     return np.array([[getattr(row, n) for n in names] for row in DRIVING_ASSISTANCE.values()])
 
 
+@pytest.mark.slow
 def test_loadings_come_back_from_a_cohort_with_its_yea_sayers():
     """Of all eleven items, shrunk as unseen acquiescence shrinks a probit's weights."""
     names, x, y, styles = survey(Cohort(traits={"extremity": {"median": 1.0, "spread": 0.0}}))

@@ -59,7 +59,7 @@ def test_a_part_that_fails(lad_study):
         (["human", "--role", "respondent"], ["respondent", "human", "allowed"]),
         (["their_answers:Nothing"], ["their_answers:Nothing", "--role driver|assistant|"]),
         (["human", "--option", "speed"], ["speed", "NAME=VALUE"]),
-        (["human", "--option", "speed=1"], ["speed", "it takes no options"]),
+        (["human", "--option", "speed=1"], ["speed", "compliance_to_person"]),
         (["scripted"], ["give either file or commands"]),
         (["human", "--period", "7"], ["--period", "7", "0.02 to 0.5"]),
         (["human", "--seed", "-1"], ["--seed", "-1"]),

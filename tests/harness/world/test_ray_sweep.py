@@ -8,7 +8,8 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from harness.world.laser import REACH, BulletCaster, ray_bearings
+from harness.world.bullet_caster import BulletCaster
+from harness.world.laser import REACH, ray_bearings
 from harness.world.ray_sweep import RaySweep, _bearing
 from protocols.course.obstacles import Box, floor_plan, obstacle_boxes
 from protocols.course.schema import Course
