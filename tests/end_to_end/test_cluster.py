@@ -155,6 +155,7 @@ def test_a_cluster_whose_only_worker_lacks_the_package_is_refused(
     assert not (tmp_path / "study").exists()
 
 
+@pytest.mark.slow
 def test_a_run_without_a_worker_says_so_and_waits(
     scheduler, add_worker, start_quick, wait_until, finished, record, undisturbed, tmp_path
 ):
@@ -170,6 +171,7 @@ def test_a_run_without_a_worker_says_so_and_waits(
     assert record(out) == undisturbed
 
 
+@pytest.mark.slow
 def test_a_lost_scheduler_ends_a_run_in_one_line(
     scheduler, add_worker, start_quick, wait_until, finished, run_quick, record, undisturbed,
     tmp_path,

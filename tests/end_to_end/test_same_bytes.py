@@ -44,6 +44,7 @@ def test_what_is_compared_is_the_whole_record(undisturbed):
     }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_code_compiled_afresh_gives_the_same_bytes(run_quick, record, undisturbed, tmp_path):
     """With no compiled code on disk, and again with what the first run has left there."""
     cache = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}

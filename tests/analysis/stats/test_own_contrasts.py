@@ -30,6 +30,7 @@ def test_with_complete_data_the_estimates_are_the_models():
     assert "standard deviation of the contrast" in own[0].checks[0]
 
 
+@pytest.mark.slow
 def test_it_holds_its_size_whatever_the_spreads():
     """Of 400 null cohorts with unequal spreads, about 5% are rejected by each contrast."""
     rng = np.random.default_rng(1)

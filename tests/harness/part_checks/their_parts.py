@@ -4,7 +4,6 @@ import math
 import os
 import sys
 import time
-from dataclasses import replace
 
 import numpy as np
 
@@ -216,7 +215,7 @@ class DiggingAssistant(Remembering):
     def assist(self, x):
         world = world_of_the_callers()
         answer = super().assist(x)
-        return answer if world is None else replace(answer, p_help=world.observe().t / 100)
+        return answer if world is None else answer._replace(p_help=world.observe().t / 100)
 
 
 class Carrying(Remembering):
@@ -226,21 +225,21 @@ class Carrying(Remembering):
 
     def assist(self, x):
         self.count += 1
-        return replace(super().assist(x), p_help=1 / (1 + self.count))
+        return super().assist(x)._replace(p_help=1 / (1 + self.count))
 
 
 class Commandless(Remembering):
     """Helps without a command."""
 
     def assist(self, x):
-        return replace(super().assist(x), helping=True, command=None)
+        return super().assist(x)._replace(helping=True, command=None)
 
 
 class NumpyTruth(Remembering):
     """Answers with numpy's truth."""
 
     def assist(self, x):
-        return replace(super().assist(x), helping=np.bool_(False))
+        return super().assist(x)._replace(helping=np.bool_(False))
 
 
 class Overwriting(Remembering):
@@ -473,7 +472,7 @@ class Reused(OpenFloor):
         if not hasattr(self, "_kept"):
             self._kept = np.empty(21)
         self._kept[:] = self._seen.ranges
-        self._seen = replace(self._seen, ranges=self._kept)
+        self._seen = self._seen._replace(ranges=self._kept)
 
 
 class Pushing(OpenFloor):
@@ -494,7 +493,7 @@ class Drifting(OpenFloor):
 
     def _look(self):
         super()._look()
-        self._seen = replace(self._seen, clearance_m=1.0 + self.laps)
+        self._seen = self._seen._replace(clearance_m=1.0 + self.laps)
 
 
 class Endless(OpenFloor):
@@ -502,4 +501,4 @@ class Endless(OpenFloor):
 
     def _look(self):
         super()._look()
-        self._seen = replace(self._seen, segments=np.full(15, np.inf))
+        self._seen = self._seen._replace(segments=np.full(15, np.inf))

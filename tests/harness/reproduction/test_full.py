@@ -75,6 +75,7 @@ def test_what_cannot_be_made_is_refused_before_anything_runs(tmp_path, monkeypat
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_replicates_drive_elsewhere_with_the_models_their_laps_taught(tmp_path, monkeypatch):
     """On another course p(h) is what the replicate's saved model says of the recorded inputs."""
     monkeypatch.setattr(full, "resolve_study", lambda name: resolve_study(name, participants=2))
