@@ -120,6 +120,7 @@ class Visit:
         )
         self._clock: Clock = VirtualClock() if lockstep else WallClock()
         self._journal: FileJournal | None = None
+        self._journal_lock = threading.Lock()
         self._stage: Stage | None = None
         self._step: Step | None = None
         self._steps = 0
@@ -227,9 +228,10 @@ class Visit:
             "event": event,
             "note": note or None,
         }
-        self._events.append(entry)
-        if self._journal is not None:
-            self._journal.event(entry)
+        with self._journal_lock:
+            self._events.append(entry)
+            if self._journal is not None:
+                self._journal.event(entry)
 
     def snapshot(self) -> dict[str, Any]:
         """Return what the console shows of this session."""
@@ -314,14 +316,15 @@ class Visit:
         lent = replace(run, previous=model_before(self._path.parents[1], self._number))
         parts = make_all_parts(lent, self._number, world, seats)
         header = journal_header(run.study, run.seed, name, kind_of(parts.lap.driver))
-        self._journal = FileJournal(self._path, header)
-        people, clock = self._with_journal(parts, self._journal)
+        journal = FileJournal(self._path, header)
+        self._open_journal(journal)
+        people, clock = self._with_journal(parts, journal)
         session = Session(
             run, self._number, world, people,
-            clock=clock, journal=self._journal, watch=self, repeats=self._repeats,
+            clock=clock, journal=journal, watch=self, repeats=self._repeats,
         )  # fmt: skip
         self.state = "running"
-        if self._living.participant and not self._journal.left and not self._fit():
+        if self._living.participant and not journal.left and not self._fit():
             session.end()
         while not session.over:
             self._stage, self._steps, self._step = session.stages[session.done], 0, None
@@ -330,11 +333,18 @@ class Visit:
             self.participant.beside = {"practice": practice}
             self._trail.clear()
             session.advance()
-            self._journal.sync()
+            journal.sync()
         self._stage = None
-        journal, self._journal = self._journal, None  # what comes later is not the session's
+        self._journal = None  # what comes later is not the session's
         journal.close()
         return replace(session.record(), events=events_of(read_journal(self._path)))
+
+    def _open_journal(self, journal: FileJournal) -> None:
+        """Record from here on in a journal, and in it what happened before it could be opened."""
+        with self._journal_lock:
+            for entry in self._events:
+                journal.event(entry)
+            self._journal = journal
 
     def _fit(self) -> bool:
         """Have the participant's machine checked; tell whether the session may begin."""
