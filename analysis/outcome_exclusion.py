@@ -5,7 +5,7 @@ from analysis.frames import StudyFrames, excluded, refused, study_frames
 
 
 def excluded_as_unfinished(frames: StudyFrames) -> tuple[str, ...]:
-    """Return whom only the rule ``min_completed_laps`` excludes.
+    """Return the participants that only the rule ``min_completed_laps`` excludes.
 
     Who does not finish laps is slow: leaving them out is leaving out an outcome.
     """
@@ -29,7 +29,7 @@ def excluded_as_unfinished(frames: StudyFrames) -> tuple[str, ...]:
 
 
 def without_the_rule(frames: StudyFrames) -> tuple[PairedComparison, ...]:
-    """Return the declared comparisons with those kept whom ``min_completed_laps`` excludes.
+    """Return the declared comparisons without the rule ``min_completed_laps``.
 
     Empty where the rule excludes no one.
     """

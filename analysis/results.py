@@ -67,7 +67,7 @@ class StudyResults:
     declared
         Comparisons the protocol declares.
     without_rule
-        The same with those kept whom ``min_completed_laps`` excludes; empty where it excludes no
+        The same without the rule ``min_completed_laps``; empty where that rule excludes no
         one.
     groups
         Groups of participants compared; None for a study without groups.

@@ -88,7 +88,7 @@ def benchmark_protocol(
     Parameters
     ----------
     setting
-        Where and with whom.
+        Where, and with which people.
     model
         The assistant.
     replicates

@@ -112,7 +112,7 @@ class Cohort(FileModel):
     demographics, impairments, traits
         What synthetic people are drawn from.
     expected_dropout
-        Share of participants of whom no usable lap is expected; planning takes it into account.
+        Share of participants expected to give no usable lap; planning takes it into account.
     """
 
     participants: Annotated[int, Field(ge=1, le=9999)] = 12

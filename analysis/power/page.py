@@ -23,7 +23,7 @@ from protocols.study import StudyProtocol
 
 @dataclass(frozen=True, slots=True)
 class PowerStudy:
-    """What was computed, and from whom.
+    """What was computed, and from which people.
 
     Attributes
     ----------

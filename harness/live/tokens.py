@@ -37,7 +37,7 @@ class Tokens:
     Parameters
     ----------
     secret
-        At least 16 bytes; whoever has it can issue tokens.
+        At least 16 bytes; anyone who has it can issue tokens.
 
     Examples
     --------

@@ -36,7 +36,7 @@ class Entries(Protocol):
 
     @property
     def left(self) -> deque[Entry]:
-        """Entries that the session has not come to yet; whoever is told of one takes it."""
+        """Entries that the session has not come to yet; the part that applies one removes it."""
 
 
 class UnfitEntryError(Exception):

@@ -78,7 +78,7 @@ _ABOUT_UNFINISHED = (
 )
 
 _ABOUT_RULE = (
-    "The declared comparisons with those kept whom the rule on completed laps excludes. The rule "
+    "The declared comparisons without the rule on completed laps: nobody is left out for it. It "
     "looks at the outcome: who does not finish is slow. Where the two tables differ, it is the "
     "rule that makes the difference."
 )
