@@ -116,6 +116,7 @@ def test_a_study_survives_the_death_of_a_worker(
     assert check_study(out) == ()
 
 
+@pytest.mark.slow
 def test_a_machine_that_lacks_something_leaves(scheduler, add_worker, start, wait_until, tmp_path):
     """Its sessions are run elsewhere, and the log says which machine it was and what it lacks."""
     out, go, folder = tmp_path / "study", tmp_path / "go", tmp_path / "drivers"

@@ -112,6 +112,7 @@ def test_ctrl_c_ends_a_run_in_one_line(
     assert record(out) == undisturbed
 
 
+@pytest.mark.slow
 def test_a_write_error_ends_a_run_in_one_line(run_quick, record, undisturbed, tmp_path):
     """The system's reason and the file are said; what was finished is kept; no file is half."""
     out = tmp_path / "study"

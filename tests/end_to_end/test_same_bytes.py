@@ -18,6 +18,7 @@ def test_a_finished_study_is_whole(undisturbed_study, start):
     assert (ended.code, ended.out) == (0, f"{undisturbed_study}: whole\n")
 
 
+@pytest.mark.slow
 def test_another_seed_gives_other_bytes(run_quick, record, undisturbed, tmp_path):
     """Every table and every lap differs, and so does every model that could have learnt.
 

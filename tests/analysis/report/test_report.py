@@ -115,6 +115,7 @@ def test_statistics_are_json_without_nan(report):
     assert found["versions"]["analysis"]["scipy"]
 
 
+@pytest.mark.slow
 def test_the_same_study_gives_the_same_report(report, study, tmp_path):
     """Written again from the same record, every file has the same bytes."""
     copied = tmp_path / "study"

@@ -87,6 +87,7 @@ def test_too_few_steps_are_refused_and_change_nothing(make):
 
 
 @BOTH
+@pytest.mark.slow
 def test_a_tuned_model_is_saved_whole(make, tmp_path):
     """Loaded or unpickled, it predicts, learns and tunes on bit for bit."""
     model = make(LADParameters(tune="evidence", prior_help=0.4))
