@@ -96,6 +96,7 @@ def add_worker(dask, scheduler, wait_until, packages):
     return add
 
 
+@pytest.mark.slow
 def test_a_study_survives_the_death_of_a_worker(
     scheduler, add_worker, start_quick, wait_until, finished, record, undisturbed, tmp_path
 ):

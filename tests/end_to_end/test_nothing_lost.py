@@ -67,6 +67,7 @@ def test_a_killed_run_is_finished_by_the_same_command(
 
 
 @pytest.mark.parametrize("kills", KILLS)
+@pytest.mark.slow
 def test_a_run_survives_the_death_of_a_worker(
     at_a_random_moment, record, undisturbed, tmp_path, kills
 ):
