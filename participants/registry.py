@@ -9,11 +9,13 @@ around the one it is given. Nothing has to be edited here to add one.
 """
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
 from participants.demonstrator import Demonstrator
 from participants.driver import Driver, kind_of
+from participants.impaired import HeardDriver, ImpairedDriver
 from participants.part_loader import load_factory, refuse_missing_methods, shipped_function
 from participants.setup import DemonstratorSetup, DriverSetup, ImpairmentSetup, RespondentSetup
 from participants.survey import Respondent
@@ -43,7 +45,9 @@ def make_impaired(name: str, setup: ImpairmentSetup, code: Code = ()) -> Driver:
     InputError
         When there is no such impairment, or it cannot be made with these options.
     """
-    return _driver("impairment", name, setup, code)
+    driver = HeardDriver(setup.driver)
+    impairment = _driver("impairment", name, replace(setup, driver=driver), code)
+    return ImpairedDriver(driver, impairment)
 
 
 def make_demonstrator(name: str, setup: DemonstratorSetup, code: Code = ()) -> Demonstrator:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lad.command import Command
-from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
+from protocols.wheelchair import within_limits
 
 TOUCH_S = 0.4
 """How long a takeover lasts where no help is needed, s: assumption."""
@@ -74,11 +74,8 @@ class Variability:
             return command
         if self._held is None or t >= self._held[0] + 1.0 / rate - 1e-9:
             v, w = 1.0 + self._fields["submovement_noise"] * self._rng.normal(size=2)
-            off = Command(
-                min(max(float(v) * command.v, -MAX_SPEED), MAX_SPEED),
-                min(max(float(w) * command.w, -MAX_TURN_RATE), MAX_TURN_RATE),
-            )
-            self._held = (t, off)
+            off = Command(float(v) * command.v, float(w) * command.w)
+            self._held = (t, within_limits(off))
         return self._held[1]
 
     def touches(self, t: float, arc: float) -> bool:

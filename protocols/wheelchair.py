@@ -1,8 +1,12 @@
-"""The wheelchair: its size, and its largest speeds and accelerations.
+"""The wheelchair: its size, its largest speeds and accelerations, and what it accepts.
 
 A paediatric powered wheelchair like ARTY's (Soh & Demiris 2013, section V); the top speeds are
 those of section IV.A.
 """
+
+import math
+
+from lad.command import Command
 
 MAX_SPEED = 0.7
 """Top translational speed, m/s."""
@@ -33,3 +37,23 @@ LASER_RANGE = 4.0
 
 LASER_HEIGHT = 0.30
 """The laser's height above the floor, m: anything lower is not seen."""
+
+
+def within_limits(command: Command) -> Command:
+    """Return the nearest command the chair accepts.
+
+    Raises
+    ------
+    ValueError
+        When the command is not finite.
+
+    Examples
+    --------
+    >>> within_limits(Command(0.9, -0.2))
+    Command(v=0.7, w=-0.2)
+    """
+    if not (math.isfinite(command.v) and math.isfinite(command.w)):
+        raise ValueError(f"a command must be finite; got v={command.v}, w={command.w}")
+    v = min(max(command.v, -MAX_SPEED), MAX_SPEED)
+    w = min(max(command.w, -MAX_TURN_RATE), MAX_TURN_RATE)
+    return Command(v, w)

@@ -5,7 +5,7 @@ from typing import Literal
 
 from lad.assistant import Assistance
 from lad.command import Command
-from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
+from protocols.wheelchair import within_limits
 
 Arbitration = Callable[[Command, Assistance], Command]
 
@@ -35,10 +35,8 @@ def augment(user: Command, assistance: Assistance) -> Command:
     """
     if not assistance.helping or assistance.command is None:
         return user
-    return Command(
-        min(max(user.v + assistance.command.v, -MAX_SPEED), MAX_SPEED),
-        min(max(user.w + assistance.command.w, -MAX_TURN_RATE), MAX_TURN_RATE),
-    )
+    added = assistance.command
+    return within_limits(Command(user.v + added.v, user.w + added.w))
 
 
 def blend(user: Command, assistance: Assistance) -> Command:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from harness.world.bullet import LONGEST_STEP, BulletChair
 from harness.world.bullet_caster import BulletCaster
-from harness.world.chair import VelocityController, within_limits
+from harness.world.chair import VelocityController
 from harness.world.clearance import box_table, clearance
 from harness.world.laser import SCAN_PERIOD, Laser, MakeCaster
 from harness.world.ray_sweep import RaySweep
@@ -19,7 +19,7 @@ from protocols.course.schema import Course
 from protocols.pose import Pose
 from protocols.start_noise import StartNoise
 from protocols.study import CasterName, LaserSettings
-from protocols.wheelchair import LASER_AHEAD, MAX_SPEED, MAX_TURN_RATE
+from protocols.wheelchair import LASER_AHEAD, MAX_SPEED, MAX_TURN_RATE, within_limits
 
 NEAR_TOUCH = 0.02
 """Contacts are computed when the chair could come this near within a control step, m."""

@@ -1,29 +1,11 @@
 """The chair's velocity controller: it approaches the command within its acceleration limits."""
 
-import math
-
 from lad.command import STILL, Command
-from protocols.wheelchair import ACCELERATION, MAX_SPEED, MAX_TURN_RATE, TURN_ACCELERATION
-
-
-def within_limits(command: Command) -> Command:
-    """Return the nearest command the chair accepts.
-
-    Raises
-    ------
-    ValueError
-        When the command is not finite.
-
-    Examples
-    --------
-    >>> within_limits(Command(0.9, -0.2))
-    Command(v=0.7, w=-0.2)
-    """
-    if not (math.isfinite(command.v) and math.isfinite(command.w)):
-        raise ValueError(f"a command must be finite; got v={command.v}, w={command.w}")
-    v = min(max(command.v, -MAX_SPEED), MAX_SPEED)
-    w = min(max(command.w, -MAX_TURN_RATE), MAX_TURN_RATE)
-    return Command(v, w)
+from protocols.wheelchair import (
+    ACCELERATION,
+    TURN_ACCELERATION,
+    within_limits,
+)
 
 
 def approached(velocity: Command, target: Command, dt: float) -> Command:

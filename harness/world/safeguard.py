@@ -22,7 +22,6 @@ from typing import Any
 
 import numpy as np
 
-from harness.world.chair import within_limits
 from harness.world.clearance import (
     FRONT,
     HALF_WIDTH,
@@ -35,7 +34,13 @@ from lad.command import Command
 from lad.compiled import compiled
 from protocols.course.obstacles import Box
 from protocols.pose import Pose
-from protocols.wheelchair import ACCELERATION, MAX_SPEED, MAX_TURN_RATE, TURN_ACCELERATION
+from protocols.wheelchair import (
+    ACCELERATION,
+    MAX_SPEED,
+    MAX_TURN_RATE,
+    TURN_ACCELERATION,
+    within_limits,
+)
 
 ROOM = math.hypot(FRONT, HALF_WIDTH) - FRONT
 """Distance kept in the direction of travel beyond ``MARGIN``, m: room to turn after a stop."""

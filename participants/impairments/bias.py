@@ -10,7 +10,7 @@ from participants.driver import Driver, kind_of
 from participants.options import Options, read_options
 from participants.setup import ImpairmentSetup
 from participants.sight import Sight
-from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
+from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE, within_limits
 
 WORST = 0.4
 """Share of full deflection by which the stick is pulled at severity 1: assumption."""
@@ -60,8 +60,7 @@ class Bias:
         if meant is None or meant == (0.0, 0.0):
             return meant
         share = 1.0 - self._drift + self._drift * min(abs(meant.v) / MAX_SPEED, 1.0)
-        w = meant.w + share * self._pull
-        return Command(meant.v, min(max(w, -MAX_TURN_RATE), MAX_TURN_RATE))
+        return within_limits(Command(meant.v, meant.w + share * self._pull))
 
 
 def bias(setup: ImpairmentSetup) -> Bias:

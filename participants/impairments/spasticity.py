@@ -11,7 +11,7 @@ from participants.driver import Driver, kind_of
 from participants.options import Options, read_options
 from participants.setup import ImpairmentSetup
 from participants.sight import Sight
-from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
+from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE, within_limits
 
 MOST_PER_S = 0.3
 """Bursts per second at severity 1: assumption."""
@@ -75,10 +75,8 @@ class Spasticity:
         passed = 0.0 if self._t is None else sight.t - self._t
         self._t = sight.t
         push = self._push(passed)
-        return Command(
-            min(max(self._meant.v + push[0] * MAX_SPEED, -MAX_SPEED), MAX_SPEED),
-            min(max(self._meant.w + push[1] * MAX_TURN_RATE, -MAX_TURN_RATE), MAX_TURN_RATE),
-        )
+        v, w = self._meant.v + push[0] * MAX_SPEED, self._meant.w + push[1] * MAX_TURN_RATE
+        return within_limits(Command(v, w))
 
     def _begin(self) -> None:
         (self._lap_rng,) = self._rng.spawn(1)

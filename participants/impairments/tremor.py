@@ -11,8 +11,7 @@ from participants.driver import Driver, kind_of
 from participants.options import Options, read_options
 from participants.setup import ImpairmentSetup
 from participants.sight import Sight
-from participants.telemetry import telemetry_of
-from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
+from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE, within_limits
 
 WORST = 4.0
 """The highest tremor rating; severity 1."""
@@ -90,7 +89,6 @@ class Tremor:
     ) -> None:
         self._driver = driver
         self.kind = kind_of(driver)
-        self.telemetry = telemetry_of(driver)
         self._rng = rng
         line, drawn = rng.uniform(0.0, math.pi), rng.uniform(LOWEST, HIGHEST)
         size = amplitude(severity)
@@ -114,10 +112,8 @@ class Tremor:
         passed = 0.0 if self._t is None else sight.t - self._t
         self._t = sight.t
         swing = self._mean_swing(passed)
-        return Command(
-            _on_stick(self._meant.v + swing * self._swing.v, MAX_SPEED),
-            _on_stick(self._meant.w + swing * self._swing.w, MAX_TURN_RATE),
-        )
+        v, w = self._meant.v + swing * self._swing.v, self._meant.w + swing * self._swing.w
+        return within_limits(Command(v, w))
 
     def _begin(self) -> None:
         (self._lap_rng,) = self._rng.spawn(1)
@@ -135,10 +131,6 @@ class Tremor:
         middle = self._phase + turned / 2.0
         self._phase = (self._phase + turned) % math.tau
         return float(np.sinc(turned / math.tau)) * math.sin(middle)
-
-
-def _on_stick(value: float, most: float) -> float:
-    return min(max(value, -most), most)
 
 
 def tremor(setup: ImpairmentSetup) -> Tremor:

@@ -7,7 +7,6 @@ from participants.driver import Driver, kind_of
 from participants.options import NoOptions, read_options
 from participants.setup import ImpairmentSetup
 from participants.sight import Sight
-from participants.telemetry import telemetry_of
 
 LEAST = 0.1
 """Share of a deflection that is left at severity 1; with 0 the chair could not be driven."""
@@ -31,7 +30,6 @@ class Weakness:
     def __init__(self, driver: Driver, severity: float) -> None:
         self._driver = driver
         self.kind = kind_of(driver)
-        self.telemetry = telemetry_of(driver)
         self._share = 1.0 - severity * (1.0 - LEAST)
 
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:
