@@ -8,12 +8,11 @@ from numpy.typing import NDArray
 
 from lad.assistant import NO_ASSISTANCE, Assistance
 from lad.command import Command
-from participants.live.driver import MOST_AGE_S, NEEDS_SEAT, command_of
+from participants.live.driver import MOST_AGE_S, command_of
 from participants.live.pictures import demonstrator_picture
-from participants.live.seat import Input, Seat
+from participants.live.seat import Input, Seat, occupied
 from participants.setup import DemonstratorSetup
 from participants.sight import Sight
-from protocols.files.errors import InputError
 
 
 class LiveDemonstrator:
@@ -69,6 +68,4 @@ def live_demonstrator(setup: DemonstratorSetup) -> LiveDemonstrator:
     InputError
         When there is no seat: a living person cannot be simulated.
     """
-    if setup.seat is None:
-        raise InputError(f"demonstrator 'live': {NEEDS_SEAT}")
-    return LiveDemonstrator(setup.seat)
+    return LiveDemonstrator(occupied("demonstrator", setup.seat))

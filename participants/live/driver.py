@@ -8,13 +8,10 @@ import numpy as np
 from lad.command import Command
 from participants.driver import ParticipantKind, WithdrewError
 from participants.live.pictures import driver_picture
-from participants.live.seat import Input, Request, Seat
+from participants.live.seat import Input, Request, Seat, occupied
 from participants.setup import DriverSetup
 from participants.sight import Sight
-from protocols.files.errors import InputError
 from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
-
-NEEDS_SEAT = "a living person needs a browser; allowed: `lad-study live`, or a simulated part"
 
 MOST_AGE_S = 0.3
 """An input that was sent longer ago never acts, s: after a stall, old ones arrive in a burst."""
@@ -97,7 +94,5 @@ def live_driver(setup: DriverSetup) -> LiveDriver:
     InputError
         When there is no seat: a living person cannot be simulated.
     """
-    if setup.seat is None:
-        raise InputError(f"driver 'live': {NEEDS_SEAT}")
     text = setup.options.get("instructions", "")
-    return LiveDriver(setup.seat, str(text))
+    return LiveDriver(occupied("driver", setup.seat), str(text))

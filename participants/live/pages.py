@@ -5,12 +5,10 @@ from dataclasses import asdict
 
 import numpy as np
 
-from participants.live.driver import NEEDS_SEAT
-from participants.live.seat import Request, Seat
+from participants.live.seat import Request, Seat, occupied
 from participants.pages import Page
 from participants.setup import RespondentSetup
 from participants.survey import Answer, LapExperience, Question
-from protocols.files.errors import InputError
 
 
 class LiveReader:
@@ -51,6 +49,4 @@ def live_respondent(setup: RespondentSetup) -> LiveRespondent:
     InputError
         When there is no seat: a living person cannot be simulated.
     """
-    if setup.seat is None:
-        raise InputError(f"respondent 'live': {NEEDS_SEAT}")
-    return LiveRespondent(setup.seat)
+    return LiveRespondent(occupied("respondent", setup.seat))

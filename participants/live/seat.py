@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from participants.survey import Answer
+from protocols.files.errors import InputError
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,3 +81,19 @@ class Seat(Protocol):
 
     def withdrawal(self) -> str | None:
         """Return why the person wants to stop, in their words; None when they do not."""
+
+
+def occupied(role: str, seat: Seat | None) -> Seat:
+    """Return the seat of a living person in a role.
+
+    Raises
+    ------
+    InputError
+        When there is none: a living person cannot be simulated.
+    """
+    if seat is None:
+        raise InputError(
+            f"{role} 'live': a living person needs a browser; allowed: `lad-study live`, "
+            "or a simulated part"
+        )
+    return seat
