@@ -9,6 +9,7 @@ import pyarrow as pa
 import pyarrow.compute as pc
 
 from analysis.export.field import Field, field_of
+from analysis.export.file_labels import file_labels
 from analysis.export.privacy import INCLUDES, minimised, unique_people
 from analysis.export.sharing import Licence, check_sharing, has_living, licence_of, may_be_shared
 from lad.inputs import N_SEGMENTS
@@ -84,6 +85,11 @@ class Content:
         table = self.study.participants
         kept = table.filter(may_be_shared(table, living=self.living))
         return tuple(sorted(kept["participant"].to_pylist()))
+
+    @cached_property
+    def labels(self) -> dict[str, str]:
+        """The names of the people as file names have them; no two are the same."""
+        return file_labels(self.people)
 
     @cached_property
     def participants(self) -> Table:

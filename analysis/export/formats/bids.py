@@ -13,6 +13,7 @@ import pyarrow as pa
 from analysis.export.content import Content, LapSteps, Table
 from analysis.export.delimited import Dialect, header_line, lines
 from analysis.export.field import Field
+from analysis.export.file_labels import file_label, file_labels, renamed_text
 from analysis.export.readme import LICENCE_FILE, README_FILE, STUDY_FILE, readme, study_text
 from analysis.export.registry import Tell
 from lad.inputs import INPUT_NAMES, N_SEGMENTS
@@ -94,7 +95,8 @@ def write(content: Content, folder: Path, tell: Tell) -> None:
     fields = {f.name: f for f in content.laps.fields}
     described = {n: _described(f) for n, f in fields.items() if n in _SCAN_COLUMNS}
     _write_json(folder / "scans.json", described)
-    (folder / README_FILE).write_text(readme(content, _HOW), encoding="utf-8")
+    about = readme(content, _HOW + renamed_text(content.labels))
+    (folder / README_FILE).write_text(about, encoding="utf-8")
     (folder / LICENCE_FILE).write_text(content.licence.text, encoding="utf-8")
     (folder / "sourcedata").mkdir()
     (folder / "sourcedata" / STUDY_FILE).write_text(study_text(content), encoding="utf-8")
@@ -102,17 +104,6 @@ def write(content: Content, folder: Path, tell: Tell) -> None:
 
 _SCAN_COLUMNS = ("lap", "condition", "practice", "completed", "end_reason", "lap_time_s",
                  "collisions", "assisted_fraction")  # fmt: skip
-
-
-def label(text: str) -> str:
-    """Return a name as BIDS file names have it: letters and digits only.
-
-    Examples
-    --------
-    >>> label("human-assisted")
-    'humanassisted'
-    """
-    return "".join(c for c in text if c.isascii() and c.isalnum())
 
 
 def _description(content: Content) -> dict[str, Any]:
@@ -127,7 +118,7 @@ def _description(content: Content) -> dict[str, Any]:
 
 def _write_people(content: Content, folder: Path) -> None:
     table, fields = content.participants.rows, content.participants.fields
-    ids = [f"sub-{label(name)}" for name in table["participant"].to_pylist()]
+    ids = [f"sub-{content.labels[name]}" for name in table["participant"].to_pylist()]
     renamed = table.drop_columns(["participant"]).add_column(0, "participant_id", pa.array(ids))
     _write_tsv(folder / "participants.tsv", renamed)
     _write_json(folder / "participants.json", {f.name: _described(f) for f in fields[1:]})
@@ -136,6 +127,7 @@ def _write_people(content: Content, folder: Path) -> None:
 def _write_answers(content: Content, folder: Path) -> None:
     """Write one file per instrument: a line per participant, a column per lap and item."""
     surveys: Table = content.surveys
+    tools = file_labels(instrument.name for instrument in content.study.instruments)
     for instrument in content.study.instruments:
         answers: dict[str, dict[str, Any]] = {}
         columns: dict[str, dict[str, Any]] = {}
@@ -146,7 +138,7 @@ def _write_answers(content: Content, folder: Path) -> None:
             name = f"lap{row['lap']}_{row['item']}" if about_lap else f"session_{row['item']}"
             given = (row["response"], row["response_number"], row.get("response_text"))
             answer = next((value for value in given if value is not None), None)
-            answers.setdefault(f"sub-{label(row['participant'])}", {})[name] = answer
+            answers.setdefault(f"sub-{content.labels[row['participant']]}", {})[name] = answer
             item = instrument.item(row["item"])
             columns[name] = {
                 "Description": f"{item.text} (after lap {row['lap']}, {row['condition']})"
@@ -159,7 +151,7 @@ def _write_answers(content: Content, folder: Path) -> None:
         if not answers:
             continue
         (folder / "phenotype").mkdir(exist_ok=True)
-        path = folder / "phenotype" / f"{label(instrument.name)}.tsv"
+        path = folder / "phenotype" / f"{tools[instrument.name]}.tsv"
         rows = [{"participant_id": n, **{c: a.get(c) for c in columns}} for n, a in answers.items()]
         text = [{k: None if v is None else str(v) for k, v in row.items()} for row in rows]
         names = ["participant_id", *columns]
@@ -170,7 +162,10 @@ def _write_answers(content: Content, folder: Path) -> None:
 
 def _write_recording(content: Content, folder: Path, lap: LapSteps) -> str:
     """Write a lap's files; return the recording's name from the participant's folder."""
-    subject, task = label(str(lap.lap["participant"])), label(str(lap.lap["condition"]))
+    subject, task = (
+        content.labels[str(lap.lap["participant"])],
+        file_label(str(lap.lap["condition"])),
+    )
     stem = f"sub-{subject}_task-{task}_tracksys-{SYSTEM}_run-{lap.lap['lap']}"
     place = folder / f"sub-{subject}" / "motion"
     place.mkdir(parents=True, exist_ok=True)
@@ -204,7 +199,7 @@ def samples_of(lap: LapSteps) -> pa.Table:
 def _recording(content: Content, lap: LapSteps) -> dict[str, Any]:
     kinds = [channel.kind for channel in CHANNELS]
     return {
-        "TaskName": label(str(lap.lap["condition"])),
+        "TaskName": file_label(str(lap.lap["condition"])),
         "TaskDescription": f"A lap of {content.study.course.name}, {lap.lap['condition']}",
         "TrackingSystemName": SYSTEM,
         "SamplingFrequency": round(1 / content.study.protocol.control_period_s, 9),
@@ -222,7 +217,7 @@ def _write_scans(
 ) -> None:
     types = {f.name: f.type for f in content.laps.fields}
     schema = pa.schema([("filename", pa.string()), *((n, types[n]) for n in _SCAN_COLUMNS)])
-    subject = f"sub-{label(participant)}"
+    subject = f"sub-{content.labels[participant]}"
     kept = [{name: row[name] for name in schema.names} for row in rows]
     _write_tsv(folder / subject / f"{subject}_scans.tsv", pa.Table.from_pylist(kept, schema))
 

@@ -12,6 +12,7 @@ from analysis.export.content import Content
 from analysis.export.csv_files import small_tables, table_bytes
 from analysis.export.delimited import header_line, lines
 from analysis.export.field import Field, Kind
+from analysis.export.file_labels import file_label, renamed_text
 from analysis.export.readme import write_about
 from analysis.export.registry import Tell
 
@@ -37,29 +38,18 @@ def write(content: Content, folder: Path, tell: Tell) -> None:
     data = folder / "data"
     (data / "steps").mkdir(parents=True)
     for table in small_tables(content):
-        name = f"study-{keyword(content.name)}_description-{table.name}_data.csv"
+        name = f"study-{file_label(content.name)}_description-{table.name}_data.csv"
         (data / name).write_bytes(table_bytes(table))
     header = header_line([field.name for field in content.step_fields])
     for lap, steps in content.laps_with_steps():
         tell(f"Steps of {lap['participant']}, lap {lap['lap']}")
-        subject = keyword(str(lap["participant"]))
+        subject = content.labels[str(lap["participant"])]
         name = f"subject-{subject}_trial-{lap['lap']}_description-steps_data.csv"
         (data / "steps" / name).write_bytes(header + lines(steps))
     if not any((data / "steps").iterdir()):
         (data / "steps").rmdir()
     (folder / DESCRIPTION_FILE).write_text(description_text(content), encoding="utf-8")
-    write_about(content, folder, _HOW)
-
-
-def keyword(text: str) -> str:
-    """Return a value as file names have it: letters and digits only.
-
-    Examples
-    --------
-    >>> keyword("four-lap")
-    'fourlap'
-    """
-    return "".join(c for c in text if c.isascii() and c.isalnum())
+    write_about(content, folder, _HOW + renamed_text(content.labels))
 
 
 def description_text(content: Content) -> str:
