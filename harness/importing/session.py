@@ -1,51 +1,22 @@
-"""One recording as a session: laps cut, inputs computed as the live world computes them."""
+"""One recording as a session: who drove which laps, and where they begin."""
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
-from harness.importing.mapping import BagMapping, CommandSource, Person, SignalSource
+from harness.importing.cutting import Cutting
+from harness.importing.mapping import BagMapping, Person
 from harness.importing.recording import Stream, read_streams
-from harness.importing.signals import (
-    between,
-    commands,
-    largest_gap,
-    latest,
-    poses,
-    segments,
-    signals,
-    texts,
-    topics,
-)
-from harness.session.lap import Ending, Step
-from harness.session.lap_log import LapLog, summary
-from harness.session.limitation import limitation_of
-from harness.session.model import basis_vectors, make_model, saved
-from harness.world.clearance import box_table, clearance
-from harness.world.world import Observation
-from lad.assistant import NO_ASSISTANCE, Assistance, Assistant, Learner
-from lad.command import STILL, Command
-from lad.inputs import as_inputs
-from protocols.condition import Condition
-from protocols.course.centreline import Centreline
-from protocols.course.gates import GateCounter
-from protocols.course.obstacles import obstacle_boxes
+from harness.importing.signals import texts, topics
+from harness.session.model import saved
 from protocols.exclusion import exclusion_reason
 from protocols.files.errors import InputError
 from protocols.files.suggestion import allowed
 from protocols.laps import PlannedLap
-from protocols.pose import Pose
-from protocols.record.rows import LapRow, ParticipantRow
-from protocols.record.session import RecordedLap, SessionRecord
+from protocols.record.rows import ParticipantRow
+from protocols.record.session import SessionRecord
 from protocols.resolved import ResolvedStudy
 from protocols.study import StudyProtocol
-
-START_AWAY_M = 2.0
-"""A lap that begins farther from the course's start is named: frames may not fit."""
 
 
 @dataclass(frozen=True)
@@ -54,17 +25,6 @@ class ImportedSession:
 
     record: SessionRecord
     troubles: tuple[str, ...]
-
-
-class _Nobody:
-    """Stands where no model predicts."""
-
-    def start_lap(self) -> None:
-        """Forget nothing."""
-
-    def assist(self, x: NDArray[np.float64]) -> Assistance:  # noqa: ARG002
-        """Say nothing."""
-        return NO_ASSISTANCE
 
 
 def read_session(
@@ -90,7 +50,7 @@ def read_session(
         do not fit, or no lap begins in it.
     """
     streams = read_streams(path, topics(mapping), mapping.clock)
-    cutting = _Cutting(path, mapping, study, streams)
+    cutting = Cutting(path, mapping, study, streams)
     starts = _starts(path, mapping, streams[mapping.starts.topic])
     planned = laps_driven(study.protocol, person, path)
     if len(starts) > len(planned):
@@ -167,229 +127,3 @@ def _starts(path: Path, mapping: BagMapping, stream: Stream) -> list[int]:
             f"{path}: no message of {stream.topic} has {pattern!r} in it; no lap begins"
         )
     return marks
-
-
-@dataclass(frozen=True)
-class _Sampled:
-    """What was recorded, at the steps' times; one more pose and scan at the end."""
-
-    poses: NDArray[np.float64]
-    velocities: NDArray[np.float64]
-    segments: NDArray[np.float64]
-    intents: list[tuple[Command, float]]
-    executed: NDArray[np.float64]
-    limited: NDArray[np.float64] | None
-    arbitrated: NDArray[np.float64] | None
-    demonstrator: list[Assistance | None]
-    assisted: NDArray[np.bool_] | None
-    contact: NDArray[np.bool_] | None
-
-
-@dataclass
-class _Cutting:
-    """Cuts laps out of one recording."""
-
-    path: Path
-    mapping: BagMapping
-    study: ResolvedStudy
-    streams: dict[str, Stream]
-    troubles: list[str] = field(default_factory=list)
-
-    def __post_init__(self) -> None:
-        mapping, course = self.mapping, self.study.course
-        self.ns = self.streams[mapping.pose.topic].ns
-        self._poses = poses(self.streams[mapping.pose.topic], mapping.pose, self.path)
-        self._segments = segments(self.streams[mapping.scan.topic], mapping.scan, self.path)
-        self._table = box_table(obstacle_boxes(course))
-        self._centreline = Centreline(course)
-        self._period = self.study.protocol.control_period_s
-        recompute = mapping.model == "recompute"
-        self.model: Assistant = make_model(self.study.protocol.model) if recompute else _Nobody()
-
-    def lap(
-        self, number: int, planned: PlannedLap, person: Person, begin: int, end: int
-    ) -> RecordedLap:
-        """Return one lap: from its mark to the last gate, its time limit, or the next mark."""
-        condition = self.study.protocol.conditions[planned.condition]
-        period = round(self._period * 1e9)
-        limit = round(planned.time_limit_s / self._period)
-        count = min(limit, (min(end, int(self.ns[-1])) - begin) // period)
-        where = f"{self.path}: {person.participant} lap {number}"
-        if count < 1:
-            raise InputError(f"{where}: the recording ends before the lap's first step")
-        times = begin + period * np.arange(count + 1, dtype=np.int64)
-        sampled = self._sampled(times, where)
-        self._check_start(sampled.poses[0], where)
-        log = LapLog(self._centreline, demonstrated=condition.assistant == "demonstrator")
-        ending, used = self._drive(condition, sampled, log, limit)
-        self._check_gaps(begin, int(times[used]), where)
-        table = log.table()
-        row = LapRow(
-            participant=person.participant,
-            lap=number,
-            condition=planned.condition,
-            practice=planned.practice,
-            limited=condition.limitation is not None,
-            assistant=condition.assistant,
-            training=condition.training and isinstance(self.model, Learner),
-            seed=0,
-            **summary(table, ending, self._period),
-            **basis_vectors(self.model),
-        )
-        return RecordedLap(row, table)
-
-    def _sampled(self, times: NDArray[np.int64], where: str) -> _Sampled:
-        mapping = self.mapping
-        velocity = mapping.velocity or CommandSource(topic=mapping.pose.topic)
-        stream = self.streams[velocity.topic]
-        speeds = commands(stream, velocity.stick, self.path)
-        scans = latest(self.streams[mapping.scan.topic].ns, times)
-        seen = self._segments[np.maximum(scans, 0)]
-        missing = np.isnan(seen)
-        if missing.any():
-            self.troubles.append(
-                f"{where}: {int(missing.sum())} of {missing.size} laser segments have no valid "
-                "reading; nothing seen was put in"
-            )
-            seen = np.where(missing, 4.0, seen)
-        return _Sampled(
-            poses=between(self.ns, self._poses, times),
-            velocities=between(stream.ns, speeds, times),
-            segments=seen,
-            intents=self._intents(times),
-            executed=self._held(mapping.executed, times),
-            limited=self._held(mapping.limited, times) if mapping.limited else None,
-            arbitrated=self._held(mapping.arbitrated, times) if mapping.arbitrated else None,
-            demonstrator=self._demonstrator(times),
-            assisted=self._signal(mapping.assisted, times),
-            contact=self._signal(mapping.contact, times),
-        )
-
-    def _held(self, source: CommandSource, times: NDArray[np.int64]) -> NDArray[np.float64]:
-        """Return the command in force at each time; standing before the first one."""
-        stream = self.streams[source.topic]
-        values = commands(stream, source.stick, self.path)
-        index = latest(stream.ns, times)
-        return np.where(index[:, None] >= 0, values[np.maximum(index, 0)], 0.0)
-
-    def _intents(self, times: NDArray[np.int64]) -> list[tuple[Command, float]]:
-        """Return what the driver wanted and how old that is; an old command is standing."""
-        source = self.mapping.intent
-        stream = self.streams[source.topic]
-        values = commands(stream, source.stick, self.path)
-        index = latest(stream.ns, times)
-        found = []
-        for i, at in zip(index.tolist(), times.tolist(), strict=True):
-            age = max(0.0, (at - int(stream.ns[i])) / 1e9) if i >= 0 else np.inf
-            old = age > self.study.protocol.hold_s + 5e-7
-            command = STILL if old else Command(float(values[i, 0]), float(values[i, 1]))
-            found.append((command, age if i >= 0 else 0.0))
-        return found
-
-    def _signal(
-        self, source: SignalSource | None, times: NDArray[np.int64]
-    ) -> NDArray[np.bool_] | None:
-        if source is None:
-            return None
-        stream = self.streams[source.topic]
-        index = latest(stream.ns, times)
-        on: NDArray[np.bool_] = signals(stream, source, self.path)[np.maximum(index, 0)]
-        return on & (index >= 0)
-
-    def _demonstrator(self, times: NDArray[np.int64]) -> list[Assistance | None]:
-        source = self.mapping.demonstrator
-        helping = self._signal(self.mapping.takeover, times)
-        if source is None or helping is None:
-            return [None] * len(times)
-        values = self._held(source, times)
-        return [
-            Assistance(helping=True, command=Command(float(v), float(w))) if on else NO_ASSISTANCE
-            for on, (v, w) in zip(helping.tolist(), values.tolist(), strict=True)
-        ]
-
-    def _drive(
-        self, condition: Condition, sampled: _Sampled, log: LapLog, limit: int
-    ) -> tuple[Ending, int]:
-        """Go through a lap's steps as ``Lap`` does; return its end and how many steps it took."""
-        gates = GateCounter(self.study.course)
-        self._limitation = limitation_of(condition.limitation, self._period)
-        self.model.start_lap()
-        observations = self._observations(sampled)
-        before = next(observations)
-        for i, after in enumerate(observations):
-            step = self._step(condition, sampled, i, before, after)
-            log.record(step)
-            shown = step.demonstrator
-            learns = condition.training and shown is not None
-            if learns and shown is not None and isinstance(self.model, Learner):
-                self.model.learn(shown.helping, shown.command)
-            crossed = gates.advance(before.pose, after.pose)
-            if crossed is not None and gates.finished:
-                t = before.t + crossed * self._period
-                return Ending("finished", t, gates.passed, None, after), i + 1
-            before = after
-        steps = len(sampled.poses) - 1
-        if steps >= limit:
-            return Ending("time_limit", before.t, gates.passed, None, before), steps
-        note = "the recording ends, or the next lap begins"
-        return Ending("stopped", before.t, gates.passed, note, before), steps
-
-    def _observations(self, sampled: _Sampled) -> Iterator[Observation]:
-        for i, (x, y, heading) in enumerate(sampled.poses.tolist()):
-            pose = Pose(x, y, float(np.arctan2(np.sin(heading), np.cos(heading))))
-            room = clearance(self._table, pose)
-            touched = room <= 0 if sampled.contact is None else bool(sampled.contact[max(i - 1, 0)])
-            v, w = sampled.velocities[i].tolist()
-            yield Observation(
-                t=round(i * self._period, 9),
-                pose=pose,
-                velocity=Command(v, w),
-                ranges=sampled.segments[i],
-                segments=sampled.segments[i],
-                clearance_m=max(0.0, room),
-                contact=touched,
-            )
-
-    def _step(
-        self,
-        condition: Condition,
-        sampled: _Sampled,
-        i: int,
-        before: Observation,
-        after: Observation,
-    ) -> Step:
-        intent, age = sampled.intents[i]
-        user = self._limitation(intent) if sampled.limited is None else _command(sampled.limited[i])
-        x = as_inputs(user, before.velocity, before.segments)
-        answer = self.model.assist(x)
-        shown = sampled.demonstrator[i]
-        by_role = {"none": NO_ASSISTANCE, "demonstrator": shown, "model": answer}
-        assistance = by_role[condition.assistant] or NO_ASSISTANCE
-        helped = assistance.helping if sampled.assisted is None else bool(sampled.assisted[i])
-        executed = _command(sampled.executed[i])
-        arbitrated = executed if sampled.arbitrated is None else _command(sampled.arbitrated[i])
-        control = condition.assistant if helped and condition.assistant != "none" else "driver"
-        return Step(
-            before, x, intent, shown, answer, control, arbitrated, executed, after, age, None, {}
-        )
-
-    def _check_start(self, pose: NDArray[np.float64], where: str) -> None:
-        start = self.study.course.start
-        away = float(np.hypot(pose[0] - start.x, pose[1] - start.y))
-        if away > START_AWAY_M:
-            self.troubles.append(
-                f"{where}: begins {away:.1f} m from the course's start; do frame and transform fit?"
-            )
-
-    def _check_gaps(self, begin: int, end: int, where: str) -> None:
-        mapping = self.mapping
-        for source in (mapping.pose, mapping.scan, mapping.intent, mapping.executed):
-            gap, at = largest_gap(self.streams[source.topic].ns, begin, end)
-            if gap > mapping.largest_gap_s:
-                self.troubles.append(
-                    f"{where}: no message of {source.topic} for {gap:.2f} s from {at:.1f} s on"
-                )
-
-
-def _command(row: NDArray[np.float64]) -> Command:
-    return Command(float(row[0]), float(row[1]))

@@ -12,11 +12,11 @@ from starlette.middleware import Middleware
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route, WebSocketRoute
-from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from harness.live import messages
 from harness.live.console import carry_out
+from harness.live.guard import REFUSED, Guard
 from harness.live.limits import TokenBucket
 from harness.live.mailbox import Mailbox
 from harness.live.study import LiveStudy, as_console
@@ -24,18 +24,6 @@ from harness.live.tokens import ROLES, Grant
 from harness.live.visit import Visit
 from protocols.course.obstacles import obstacle_boxes
 
-CONTENT_POLICY = (
-    "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; "
-    "img-src 'self' data:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
-    "frame-ancestors 'none'"
-)
-HEADERS = (
-    ("content-security-policy", CONTENT_POLICY),
-    ("x-content-type-options", "nosniff"),
-    ("referrer-policy", "no-referrer"),
-    ("cache-control", "no-store"),
-    ("cross-origin-opener-policy", "same-origin"),
-)
 TYPES = {
     ".html": "text/html; charset=utf-8",
     ".js": "text/javascript; charset=utf-8",
@@ -51,48 +39,8 @@ RATE, BURST = 120.0, 240
 HELLO_S, PING_S, CONSOLE_S = 10.0, 1.0, 0.2
 """How long a first message may take, how often round trips are measured and consoles fed, s."""
 
-REPLACED, REFUSED, FLOODED = 4001, 4003, 4008
+REPLACED, FLOODED = 4001, 4008
 """Reasons for which a socket is closed; the pages know them."""
-
-
-class Guard:
-    """Refuses other hosts and other origins before anything is read, and adds headers."""
-
-    def __init__(self, app: ASGIApp, hosts: frozenset[str], origins: frozenset[str]) -> None:
-        self._app, self._hosts, self._origins = app, hosts, origins
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Serve one request or socket."""
-        if scope["type"] == "lifespan":
-            await self._app(scope, receive, send)
-            return
-        given = {
-            name.decode("latin-1"): value.decode("latin-1") for name, value in scope["headers"]
-        }
-        if given.get("host", "") not in self._hosts:
-            await _refuse(scope, receive, send, 400, "unknown host")
-        elif scope["type"] == "websocket" and given.get("origin", "") not in self._origins:
-            await _refuse(scope, receive, send, 403, "foreign origin")
-        else:
-            await self._app(scope, receive, _with_headers(send))
-
-
-async def _refuse(scope: Scope, receive: Receive, send: Send, status: int, why: str) -> None:
-    if scope["type"] == "websocket":
-        await receive()
-        await send({"type": "websocket.close", "code": REFUSED, "reason": why})
-        return
-    await PlainTextResponse(why, status)(scope, receive, _with_headers(send))
-
-
-def _with_headers(send: Send) -> Send:
-    async def sending(message: Message) -> None:
-        if message["type"] == "http.response.start":
-            extra = [(name.encode(), value.encode()) for name, value in HEADERS]
-            message = {**message, "headers": [*message.get("headers", ()), *extra]}
-        await send(message)
-
-    return sending
 
 
 def make_app(study: LiveStudy, hosts: frozenset[str], origins: frozenset[str]) -> Starlette:
