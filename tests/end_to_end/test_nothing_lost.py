@@ -9,7 +9,7 @@ import time
 import psutil
 import pytest
 
-KILLS = [1, pytest.param(25, marks=pytest.mark.slow)]
+KILLS = [2, pytest.param(25, marks=pytest.mark.slow)]
 GAP_S = 0.2
 """About the time between two finished sessions."""
 

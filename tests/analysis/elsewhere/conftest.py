@@ -62,6 +62,7 @@ HEAD = {
     ],
     "course": COURSE,
 }
+HEAD_TEXT = plain_yaml(HEAD)
 PEOPLE = ("01", "Ren\u00e9", "04")
 COLLIDED = "04"
 LAPS = ("assisted", "manual", "assisted")
@@ -91,7 +92,7 @@ class Recorded:
     def write(self, folder: Path) -> Path:
         """Write the study directory."""
         folder.mkdir(parents=True)
-        (folder / "study.yaml").write_text(plain_yaml(HEAD), encoding="utf-8")
+        (folder / "study.yaml").write_text(HEAD_TEXT, encoding="utf-8")
         for name, table in self.tables.items():
             pq.write_table(table, folder / f"{name}.parquet")
         for (session, name), table in self.steps.items():
