@@ -9,15 +9,19 @@ import gc
 import multiprocessing
 import os
 import signal
+import tempfile
 import threading
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from multiprocessing import forkserver
+from multiprocessing import forkserver, util
 from multiprocessing.connection import Connection, wait
+from pathlib import Path
+from types import FrameType
 from typing import Any, Self, TypeVar, cast
 
 from harness.running.workers import MAX_DEATHS, Died
+from protocols.files.errors import InputError
 
 T = TypeVar("T")
 
@@ -30,21 +34,48 @@ _CONTEXT = (
 _ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "BLIS")}
 """For linear algebra: the cores are taken by other sessions."""
 
+_LONGEST_FOLDER = 70
+"""Bytes of a temporary folder's path: with the socket's name the system takes 103 and no more."""
+
 
 def warm_up(modules: Iterable[str]) -> None:
     """Start, in the background, the process that workers are forked from.
 
     It imports ``modules`` once for all of them, while this process continues; without forking,
     every worker imports them itself.
+
+    Raises
+    ------
+    InputError
+        When the path of every temporary folder is too long for a socket.
     """
     if not _FORKS:
         return
+    _make_temporary_folder()
     _CONTEXT.set_forkserver_preload(list(modules))
     # A folder in the working directory must not hide an installed package there.
     # Ctrl-C reaches every process of the terminal, but only the runner may act on it: it keeps what
     # is finished and ends the others. Each would otherwise end with a traceback of its own.
-    with _environment({**_ONE_THREAD, "PYTHONSAFEPATH": "1"}), _deaf_to_interrupts():
+    safe = {**_ONE_THREAD, "PYTHONSAFEPATH": "1"}
+    with signals_afterwards(), _environment(safe), _deaf_to_interrupts():
         forkserver.ensure_running()
+
+
+def _make_temporary_folder() -> None:
+    """Make the folder of the fork server's socket where its whole path is short enough."""
+    kept = tempfile.tempdir
+    try:
+        for folder in (tempfile.gettempdir(), "/tmp", "/var/tmp"):  # noqa: S108  # a new one inside
+            if len(os.fsencode(folder)) <= _LONGEST_FOLDER and os.access(folder, os.W_OK):
+                tempfile.tempdir = folder
+                util.get_temp_dir()  # made once, and then kept
+                return
+    finally:
+        tempfile.tempdir = kept
+    raise InputError(
+        f"TMPDIR: {Path(tempfile.gettempdir())}: a path of at most {_LONGEST_FOLDER} bytes "
+        "is needed, for the socket between processes"
+    )
 
 
 class Processes:
@@ -54,9 +85,16 @@ class Processes:
     ----------
     jobs
         How many, 1 or more.
+
+    Raises
+    ------
+    InputError
+        When the path of every temporary folder is too long for a socket.
     """
 
     def __init__(self, jobs: int) -> None:
+        if _FORKS:
+            _make_temporary_folder()
         self._jobs = jobs
         self._idle: list[_Worker] = []
         self._busy: dict[Connection, tuple[_Worker, int]] = {}
@@ -118,7 +156,7 @@ class _Worker:
     def __init__(self) -> None:
         self.pipe, theirs = _CONTEXT.Pipe()
         self.process = _CONTEXT.Process(target=_serve, args=(theirs,), daemon=True)
-        with _environment(_ONE_THREAD):
+        with signals_afterwards(), _environment(_ONE_THREAD):
             self.process.start()
         theirs.close()  # else a dead worker's pipe would stay open
 
@@ -185,3 +223,27 @@ def _deaf_to_interrupts() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGINT, kept)
+
+
+@contextmanager
+def signals_afterwards() -> Iterator[None]:
+    """Act on Ctrl-C and SIGTERM only when a process has started: half of one prints a traceback."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    came: list[int] = []
+
+    def note(number: int, _frame: FrameType | None) -> None:
+        came.append(number)
+
+    kept = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    for number, handler in kept.items():
+        if callable(handler):
+            signal.signal(number, note)
+    try:
+        yield
+    finally:
+        for number, handler in kept.items():
+            signal.signal(number, handler)
+        for missed in came:
+            signal.raise_signal(missed)

@@ -100,8 +100,10 @@ def test_sigterm_is_said_and_leaves_nothing(tmp_path):
         stderr=subprocess.PIPE,
         text=True,
     ) as process:
-        while "Sessions 0/2" not in process.stderr.readline():
-            assert process.poll() is None
+        before = ""
+        while "Sessions 0/2" not in before:
+            before += process.stderr.readline()
+            assert process.poll() is None, before + process.stderr.read()
         process.terminate()
         _, err = process.communicate(timeout=60)
     assert process.returncode == 143

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from harness.running.processes import Processes
+from harness.running.processes import Processes, signals_afterwards
 from harness.running.workers import MAX_DEATHS, Died
 
 TASKS = '''
@@ -206,3 +206,41 @@ def test_workers_end_when_the_runner_is_killed(tasks, tmp_path):
     runner.wait()
     pids = [int(p.name) for p in folder.iterdir()]
     wait_until(lambda: not any(map(alive, pids)))
+
+
+def test_a_long_temporary_folder_does_not_matter(tasks, tmp_path):
+    """The socket of the fork server has a path of at most 107 bytes, wherever TMPDIR is."""
+    folder = tmp_path / ("a-long-name-" * 12)
+    folder.mkdir()
+    script = tmp_path / "runner.py"
+    script.write_text(
+        "from harness.running.processes import Processes\n"
+        "import some_tasks\n"
+        "if __name__ == '__main__':\n"
+        "    with Processes(1) as workers:\n"
+        "        print(list(workers.run(some_tasks.square, [3])))\n"
+    )
+    path = os.pathsep.join([str(tmp_path), *filter(None, sys.path)])
+    done = subprocess.run(  # noqa: S603  # our own script
+        [sys.executable, str(script)],
+        env={**os.environ, "PYTHONPATH": path, "TMPDIR": str(folder)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.stdout, done.stderr) == ("[(3, 9)]\n", "")
+    assert list(folder.iterdir()) == []
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_waits_until_a_process_has_started(number):
+    """It is not lost, and it does not come in the middle."""
+    came = []
+    kept = signal.signal(number, lambda *_: came.append("acted on"))
+    try:
+        with signals_afterwards():
+            signal.raise_signal(number)
+            came.append("started")
+    finally:
+        signal.signal(number, kept)
+    assert came == ["started", "acted on"]
