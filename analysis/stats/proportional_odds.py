@@ -15,6 +15,8 @@ _NAME = "proportional odds"
 _METHOD = "marginal proportional-odds regression (logit), maximum likelihood"
 _BOOTSTRAP = f"percentile bootstrap over participants, {RESAMPLES} resamples"
 _STEPS = 60
+_LONGEST = 3.0
+"""The most that a parameter changes in one step."""
 _FAR = 12.0
 """A log odds ratio beyond this is taken for infinite: the answers are separated."""
 
@@ -114,17 +116,23 @@ def log_odds_ratios(tables: NDArray[np.float64]) -> NDArray[np.float64]:
         Shape (tables,); infinite where the likelihood has no maximum, 0 where only one answer
         occurs.
     """
-    found = np.zeros(len(tables))
-    occurs = tables.sum(axis=1) > 0
+    # Resamples of few people repeat each other: each different table is climbed once.
+    different, where = np.unique(tables.reshape(len(tables), -1), axis=0, return_inverse=True)
+    different = different.reshape(-1, *tables.shape[1:])
+    found = np.zeros(len(different))
+    occurs = different.sum(axis=1) > 0
     for pattern in np.unique(occurs, axis=0):
         if pattern.sum() > 1:  # an answer that never occurs has no threshold
             alike = (occurs == pattern).all(axis=1)
-            found[alike] = _newton(tables[alike][:, :, pattern])
-    return found
+            found[alike] = _newton(different[alike][:, :, pattern])
+    return found[where.ravel()]
 
 
 def _newton(n: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Climb the concave likelihood of all tables at once; parameters are thresholds, then beta."""
+    """Climb the concave likelihood of all tables at once; parameters are thresholds, then beta.
+
+    A table that has arrived is left alone while the others climb.
+    """
     k = n.shape[2]
     design = np.zeros((2 * (k - 1), k))
     design[: k - 1, : k - 1] = design[k - 1 :, : k - 1] = np.eye(k - 1)
@@ -132,23 +140,40 @@ def _newton(n: NDArray[np.float64]) -> NDArray[np.float64]:
     share = np.cumsum(n.sum(axis=1), axis=1)[:, :-1] / n.sum(axis=(1, 2))[:, None]
     at = np.column_stack([special.logit(share), np.zeros(len(n))])
     height = _log_likelihood(at @ design.T, n)
+    climbing = np.arange(len(n))
     for _ in range(_STEPS):
-        gradient, hessian = _slopes(at @ design.T, n)
-        ridge = -1e-10 * np.eye(k)
-        step = np.linalg.solve(design.T @ hessian @ design + ridge, (gradient @ design)[..., None])
-        step = np.clip(step[..., 0], -3.0, 3.0)
-        for _ in range(30):
-            there = _log_likelihood((at - step) @ design.T, n)
-            worse = ~(there >= height - 1e-12)
-            if not worse.any():
-                break
-            step[worse] /= 2
-        step[worse] = 0.0
-        at, height = at - step, np.where(worse, height, there)
-        if np.abs(step).max() < 1e-10:
+        at[climbing], height[climbing], step = _step(
+            at[climbing], height[climbing], n[climbing], design
+        )
+        arrived = np.abs(step).max(axis=1) < 1e-10
+        # Beyond this no single step leads back: the answers are separated.
+        gone = np.abs(at[climbing, -1]) > _FAR + _LONGEST
+        climbing = climbing[~(arrived | gone)]
+        if not len(climbing):
             break
     beta = at[:, -1]
     return np.where(np.abs(beta) > _FAR, np.copysign(np.inf, beta), beta)
+
+
+def _step(
+    at: NDArray[np.float64],
+    height: NDArray[np.float64],
+    n: NDArray[np.float64],
+    design: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Return where one Newton step, halved until it does not lead down, arrives; and the step."""
+    gradient, hessian = _slopes(at @ design.T, n)
+    ridge = -1e-10 * np.eye(n.shape[2])
+    step = np.linalg.solve(design.T @ hessian @ design + ridge, (gradient @ design)[..., None])
+    step = np.clip(step[..., 0], -_LONGEST, _LONGEST)
+    for _ in range(30):
+        there = _log_likelihood((at - step) @ design.T, n)
+        worse = ~(there >= height - 1e-12)
+        if not worse.any():
+            break
+        step[worse] /= 2
+    step[worse] = 0.0
+    return at - step, np.where(worse, height, there), step
 
 
 def _cells(
