@@ -2,7 +2,7 @@
 
 A study of many is made of a small one: its sessions again and again under new names, their step
 tables cut to the first ``--steps`` rows. Every format writes it in a process of its own, whose
-largest resident memory is printed. The table in docs/exchange.md was made with it.
+largest resident memory is printed.
 """
 
 import argparse

@@ -105,7 +105,7 @@ class Cutting:
         self, stream: Stream, values: NDArray[np.float64], what: str
     ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """Return times and values of the messages that have them; name the others."""
-        good = np.isfinite(values).all(axis=1)
+        good = np.asarray(np.isfinite(values).all(axis=1))
         if not good.any():
             raise InputError(f"{self.path}: {stream.topic}: none of the {what} is a number")
         if not good.all():
