@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from analysis.export.content import Content, Table
-from analysis.export.delimited import CSV, Dialect, header_line, lines, zipped
+from analysis.export.delimited import CSV, Dialect, header_line, lines, write_table, zipped
 from analysis.export.field import Field
 from analysis.export.registry import Tell
 
@@ -38,7 +38,7 @@ def write_csv_files(
 def _written(content: Content, folder: Path, tell: Tell, dialect: Dialect) -> Iterator[CsvFile]:
     for table in small_tables(content):
         path = f"{table.name}.csv"
-        (folder / path).write_bytes(table_bytes(table, dialect))
+        write_table(folder / path, table.rows, dialect)
         yield CsvFile(table.name, path, table.fields, table.key, table.description)
     if write_steps(content, folder / STEPS_FILE, tell, dialect):
         yield CsvFile(
@@ -48,11 +48,6 @@ def _written(content: Content, folder: Path, tell: Tell, dialect: Dialect) -> It
             ("participant", "lap", "step"),
             "One row per control step",
         )
-
-
-def table_bytes(table: Table, dialect: Dialect = CSV) -> bytes:
-    """Return a whole table as text, with its first line."""
-    return header_line(table.rows.column_names, dialect) + lines(table.rows, dialect)
 
 
 def write_steps(content: Content, path: Path, tell: Tell, dialect: Dialect) -> int:

@@ -37,6 +37,9 @@ class Dialect:
 CSV = Dialect()
 """As Frictionless and Psych-DS read it."""
 
+ROWS_AT_ONCE = 5000
+"""How many rows of a table are in memory as text."""
+
 
 def header_line(names: list[str], dialect: Dialect = CSV) -> bytes:
     """Return the first line; empty for a dialect without one."""
@@ -56,6 +59,14 @@ def lines(table: pa.Table, dialect: Dialect = CSV) -> bytes:
     columns = [_text(array.combine_chunks(), dialect) for array in table.columns]
     rows = pc.binary_join_element_wise(*columns, dialect.separator)
     return ("\n".join(rows.to_pylist()) + "\n").encode()
+
+
+def write_table(path: Path, table: pa.Table, dialect: Dialect = CSV) -> None:
+    """Write a whole table into a file, some rows at a time."""
+    with path.open("wb") as stream:
+        stream.write(header_line(table.column_names, dialect))
+        for at in range(0, len(table), ROWS_AT_ONCE):
+            stream.write(lines(table.slice(at, ROWS_AT_ONCE), dialect))
 
 
 def _text(array: pa.Array, dialect: Dialect) -> pa.Array:

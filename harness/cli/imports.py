@@ -114,6 +114,7 @@ def _write_course(drawn: "RosMap", route: Path, out: Path, picture: Path) -> Non
     from analysis.figures.files import png
     from analysis.figures.imported_map import map_with_course
     from harness.world.step_cost import step_cost
+    from protocols.course.centreline import Centreline
     from protocols.files.dump import to_yaml
     from protocols.importing.map.course import import_course
     from protocols.load import load_course
@@ -121,6 +122,8 @@ def _write_course(drawn: "RosMap", route: Path, out: Path, picture: Path) -> Non
 
     done = import_course(drawn, route)
     kinds = [bend.kind for bend in done.bends]
+    width, height = drawn.size
+    say(f"Map: {width:.1f} m x {height:.1f} m; route: {Centreline(done.course).length:.1f} m")
     say(
         f"Right turns: {kinds.count('sharp_right')} sharp, {kinds.count('soft_right')} soft; "
         f"left turns: {kinds.count('left')}"

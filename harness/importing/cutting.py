@@ -11,12 +11,14 @@ from harness.importing.mapping import BagMapping, CommandSource, Person, SignalS
 from harness.importing.recording import Stream
 from harness.importing.signals import (
     between,
+    command_sources,
     commands,
     largest_gap,
     latest,
     poses,
     segments,
     signals,
+    velocity_of,
 )
 from harness.session.lap import Ending, Step
 from harness.session.lap_log import LapLog, summary
@@ -81,14 +83,37 @@ class Cutting:
 
     def __post_init__(self) -> None:
         mapping, course = self.mapping, self.study.course
-        self.ns = self.streams[mapping.pose.topic].ns
-        self._poses = poses(self.streams[mapping.pose.topic], mapping.pose, self.path)
+        stream = self.streams[mapping.pose.topic]
+        placed = poses(stream, mapping.pose, self.path)
+        self.ns, self._poses = self._numbers(stream, placed, "poses")
+        self._commands = {
+            (source.topic, source.stick): self._numbers(
+                self.streams[source.topic],
+                commands(self.streams[source.topic], source.stick, self.path),
+                "commands",
+            )
+            for source in command_sources(mapping)
+        }
         self._segments = segments(self.streams[mapping.scan.topic], mapping.scan, self.path)
         self._table = box_table(obstacle_boxes(course))
         self._centreline = Centreline(course)
         self._period = self.study.protocol.control_period_s
         recompute = mapping.model == "recompute"
         self.model: Assistant = make_model(self.study.protocol.model) if recompute else _Nobody()
+
+    def _numbers(
+        self, stream: Stream, values: NDArray[np.float64], what: str
+    ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        """Return times and values of the messages that have them; name the others."""
+        good = np.asarray(np.isfinite(values).all(axis=1))
+        if not good.any():
+            raise InputError(f"{self.path}: {stream.topic}: none of the {what} is a number")
+        if not good.all():
+            self.troubles.append(
+                f"{self.path}: {stream.topic}: {int((~good).sum())} of {len(good)} {what} are no "
+                "numbers; they are left out"
+            )
+        return stream.ns[good], values[good]
 
     def lap(
         self, number: int, planned: PlannedLap, person: Person, begin: int, end: int
@@ -124,9 +149,8 @@ class Cutting:
 
     def _sampled(self, times: NDArray[np.int64], where: str) -> _Sampled:
         mapping = self.mapping
-        velocity = mapping.velocity or CommandSource(topic=mapping.pose.topic)
-        stream = self.streams[velocity.topic]
-        speeds = commands(stream, velocity.stick, self.path)
+        velocity = velocity_of(mapping)
+        speed_ns, speeds = self._commands[velocity.topic, velocity.stick]
         scans = latest(self.streams[mapping.scan.topic].ns, times)
         seen = self._segments[np.maximum(scans, 0)]
         missing = np.isnan(seen)
@@ -138,7 +162,7 @@ class Cutting:
             seen = np.where(missing, 4.0, seen)
         return _Sampled(
             poses=between(self.ns, self._poses, times),
-            velocities=between(stream.ns, speeds, times),
+            velocities=between(speed_ns, speeds, times),
             segments=seen,
             intents=self._intents(times),
             executed=self._held(mapping.executed, times),
@@ -151,20 +175,18 @@ class Cutting:
 
     def _held(self, source: CommandSource, times: NDArray[np.int64]) -> NDArray[np.float64]:
         """Return the command in force at each time; standing before the first one."""
-        stream = self.streams[source.topic]
-        values = commands(stream, source.stick, self.path)
-        index = latest(stream.ns, times)
+        ns, values = self._commands[source.topic, source.stick]
+        index = latest(ns, times)
         return np.where(index[:, None] >= 0, values[np.maximum(index, 0)], 0.0)
 
     def _intents(self, times: NDArray[np.int64]) -> list[tuple[Command, float]]:
         """Return what the driver wanted and how old that is; an old command is standing."""
         source = self.mapping.intent
-        stream = self.streams[source.topic]
-        values = commands(stream, source.stick, self.path)
-        index = latest(stream.ns, times)
+        ns, values = self._commands[source.topic, source.stick]
+        index = latest(ns, times)
         found = []
         for i, at in zip(index.tolist(), times.tolist(), strict=True):
-            age = max(0.0, (at - int(stream.ns[i])) / 1e9) if i >= 0 else np.inf
+            age = max(0.0, (at - int(ns[i])) / 1e9) if i >= 0 else np.inf
             old = age > self.study.protocol.hold_s + 5e-7
             command = STILL if old else Command(float(values[i, 0]), float(values[i, 1]))
             found.append((command, age if i >= 0 else 0.0))
@@ -267,11 +289,17 @@ class Cutting:
 
     def _check_gaps(self, begin: int, end: int, where: str) -> None:
         mapping = self.mapping
-        for source in (mapping.pose, mapping.scan, mapping.intent, mapping.executed):
-            gap, at = largest_gap(self.streams[source.topic].ns, begin, end)
+        intent, executed = mapping.intent, mapping.executed
+        for topic, ns in (
+            (mapping.pose.topic, self.ns),
+            (mapping.scan.topic, self.streams[mapping.scan.topic].ns),
+            (intent.topic, self._commands[intent.topic, intent.stick][0]),
+            (executed.topic, self._commands[executed.topic, executed.stick][0]),
+        ):
+            gap, at = largest_gap(ns, begin, end)
             if gap > mapping.largest_gap_s:
                 self.troubles.append(
-                    f"{where}: no message of {source.topic} for {gap:.2f} s from {at:.1f} s on"
+                    f"{where}: no message of {topic} for {gap:.2f} s from {at:.1f} s on"
                 )
 
 

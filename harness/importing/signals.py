@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from harness.importing.mapping import (
     BagMapping,
+    CommandSource,
     PoseSource,
     ScanSource,
     SignalSource,
@@ -21,14 +22,20 @@ from protocols.wheelchair import LASER_RANGE
 SLACK_NS = 500
 """Half a microsecond: a message at a step's time counts for the step."""
 
+UNIT_WITHIN = 0.1
+"""How far an orientation's length may be from 1; one that was never filled in has length 0."""
+
 
 def poses(stream: Stream, source: PoseSource, path: object) -> NDArray[np.float64]:
     """Return a stream's poses in the course: shape (n, 3), x and y of the axle, heading unwrapped.
 
+    A pose with a number that is none, or with an orientation that was never filled in, is NaN.
+
     Raises
     ------
     InputError
-        When messages are of another type, or in another frame than the mapping says.
+        When messages are of another type, or in another frame than the mapping says, or none of
+        them has a pose.
     """
     rows = []
     for message in stream.messages:
@@ -44,13 +51,19 @@ def poses(stream: Stream, source: PoseSource, path: object) -> NDArray[np.float6
             raise _wrong_type(path, stream, "Odometry, PoseStamped, PoseWithCovarianceStamped")
         q = pose.orientation
         heading = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
-        rows.append((pose.position.x, pose.position.y, heading))
+        unit = abs(math.hypot(q.x, q.y, q.z, q.w) - 1) < UNIT_WITHIN
+        rows.append((pose.position.x, pose.position.y, heading if unit else math.nan))
     found = np.array(rows, dtype=np.float64)
+    good = np.isfinite(found).all(axis=1)
+    if not good.any():
+        raise InputError(f"{path}: {stream.topic}: no message has a position and an orientation")
+    found[~good] = np.nan
     at = source.transform
     cos, sin = math.cos(at.yaw), math.sin(at.yaw)
     x = at.x + cos * found[:, 0] - sin * found[:, 1]
     y = at.y + sin * found[:, 0] + cos * found[:, 1]
-    turned = np.unwrap(found[:, 2] + at.yaw)
+    turned = found[:, 2] + at.yaw
+    turned[good] = np.unwrap(turned[good])
     ahead = source.ahead_of_axle_m
     return np.stack([x - ahead * np.cos(turned), y - ahead * np.sin(turned), turned], axis=1)
 
@@ -81,6 +94,12 @@ def signals(stream: Stream, source: SignalSource, path: object) -> NDArray[np.bo
     rows = []
     for message in stream.messages:
         if hasattr(message, "buttons"):
+            if source.button >= len(message.buttons):
+                count = len(message.buttons)
+                raise InputError(
+                    f"{path}: {stream.topic}: a joystick of {count} buttons; allowed: button of 0 "
+                    f"to {count - 1}"
+                )
             rows.append(float(message.buttons[source.button]) > source.above)
             continue
         data = getattr(message, "data", None)
@@ -137,6 +156,20 @@ def between(
     zero = int(ns[0])
     times, wanted = (ns - zero).astype(np.float64), (at - zero).astype(np.float64)
     return np.stack([np.interp(wanted, times, column) for column in values.T], axis=1)
+
+
+def velocity_of(mapping: BagMapping) -> CommandSource:
+    """Return where the velocity is: its own topic, or the pose's."""
+    return mapping.velocity or CommandSource(topic=mapping.pose.topic)
+
+
+def command_sources(mapping: BagMapping) -> tuple[CommandSource, ...]:
+    """Return every stream of commands or velocities that a mapping names."""
+    sources = (
+        velocity_of(mapping), mapping.executed, mapping.intent, mapping.limited,
+        mapping.arbitrated, mapping.demonstrator,
+    )  # fmt: skip
+    return tuple(source for source in sources if source is not None)
 
 
 def topics(mapping: BagMapping) -> tuple[str, ...]:

@@ -152,19 +152,30 @@ name: again
 start: {{x: 0.0, y: 0.0, heading: 0.0}}
 via: {via}
 gates: {gates}
-simplify: {{tolerance_m: 0.02, closing_m: 0}}
+{more}
+"""
+
+TWO_LAPS = """\
+schema: 1
+name: two-laps
+title: Two laps
+cohort: {participants: 6}
+conditions:
+  baseline: {}
+  limited: {limitation: {right_turn_rad_s: 0.15}}
+laps: [{condition: baseline}, {condition: limited}]
 """
 
 
-def draw(folder):
-    """Draw lab-office as a robot's map, and its centreline as a route."""
+def draw(folder, cell, more):
+    """Draw lab-office as a robot's map with cells of a size, and its centreline as a route."""
     course = load_course("lab-office")
-    raster = occupancy(course, 0.02)
+    raster = occupancy(course, cell)
     grey = np.where(raster.free, 254, 0).astype(np.uint8)
     Image.fromarray(np.flipud(grey)).save(folder / "map.pgm")
-    x, y = (middle - 0.01 for middle in raster.origin)
+    x, y = (middle - cell / 2 for middle in raster.origin)
     (folder / "map.yaml").write_text(
-        f"image: map.pgm\nresolution: 0.02\norigin: [{x}, {y}, 0.0]\nnegate: 0\n"
+        f"image: map.pgm\nresolution: {cell}\norigin: [{x}, {y}, 0.0]\nnegate: 0\n"
     )
     via = course.centreline[1:]
     gates = [None] * len(via)
@@ -172,29 +183,37 @@ def draw(folder):
         middle = (np.array(gate.left) + np.array(gate.right)) / 2
         gates[int(np.argmin([np.hypot(*(middle - p)) for p in via]))] = gate.name
     gates[-1] = course.gates[-1].name
-    text = ROUTE.format(via=[list(p) for p in via], gates=json.dumps(gates))
+    text = ROUTE.format(via=[list(p) for p in via], gates=json.dumps(gates), more=more)
     (folder / "route.yaml").write_text(text)
+
+
+def lap_times(start, folder, *options):
+    """Run six people's laps; return their times by person and condition, s."""
+    (folder / "two-laps.yaml").write_text(TWO_LAPS)
+    ended = start("run", "two-laps.yaml", "--no-report", "--out", "study", *options).ended()
+    assert ended.code == 0, ended.err
+    laps = open_study(folder / "study").laps.to_pandas()
+    shutil.rmtree(folder / "study")
+    assert laps["completed"].all()
+    return laps.pivot_table(index="participant", columns="condition", values="lap_time_s")
 
 
 @pytest.mark.slow
 def test_a_course_through_a_map_takes_as_long(start, tmp_path):
-    """lab-office drawn, imported and driven by the same people: lap times within 3%."""
-    draw(tmp_path)
-    done = start(
-        "import", "map", "map.yaml", "--route", "route.yaml", "--out", "course.yaml"
-    ).ended()
-    assert done.code == 0, done.err
-    assert "Right turns: 2 sharp" in done.out
-    (tmp_path / "one-lap.yaml").write_text(
-        "schema: 1\nname: one-lap\ntitle: One lap\ncohort: {participants: 6}\n"
-        "conditions: {baseline: {}}\nlaps: [{condition: baseline}]\n"
-    )
-    times = {}
-    for name, options in (("lab", ()), ("map", ("--course", "course.yaml"))):
-        ended = start("run", "one-lap.yaml", "--no-report", "--out", name, *options).ended()
-        assert ended.code == 0, ended.err
-        laps = open_study(tmp_path / name).laps
-        assert all(laps["completed"].to_pylist())
-        times[name] = np.mean(laps["lap_time_s"].to_pylist())
-        shutil.rmtree(tmp_path / name)
-    assert times["map"] == pytest.approx(times["lab"], rel=0.03)
+    """lab-office drawn, imported, driven by the same people: lap times within 3%, with and without.
+
+    At 2 cm, and at 5 cm with everything as by default. What is compared is the median over people
+    of how much each one's lap changes: one of the six is at the edge of backing off, so that the
+    mean changes by 4% when the start of lab-office itself is moved by 1.4 mm.
+    """
+    wanted = lap_times(start, tmp_path)
+    for cell, more in ((0.02, "simplify: {tolerance_m: 0.02, closing_m: 0}"), (0.05, "")):
+        draw(tmp_path, cell, more)
+        done = start(
+            "import", "map", "map.yaml", "--route", "route.yaml", "--out", "course.yaml"
+        ).ended()
+        assert done.code == 0, done.err
+        assert "Right turns: 2 sharp" in done.out
+        found = lap_times(start, tmp_path, "--course", "course.yaml")
+        ratios = (found / wanted).median()
+        assert (ratios - 1).abs().max() < 0.03, (cell, ratios.to_dict())

@@ -5,18 +5,22 @@ Specification: https://bids-specification.readthedocs.io/ (1.10, modality motion
 """
 
 import json
+from collections.abc import Iterator, Mapping
+from itertools import groupby, islice
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import pyarrow as pa
+import pyarrow.compute as pc
 
-from analysis.export.content import Content, LapSteps, Table
-from analysis.export.delimited import Dialect, header_line, lines
+from analysis.export.content import Content, LapSteps
+from analysis.export.delimited import Dialect, header_line, lines, write_table
 from analysis.export.field import Field
 from analysis.export.file_labels import file_label, file_labels, renamed_text
 from analysis.export.readme import LICENCE_FILE, README_FILE, STUDY_FILE, readme, study_text
 from analysis.export.registry import Tell
 from lad.inputs import INPUT_NAMES, N_SEGMENTS
+from protocols.instrument import Instrument
 
 BIDS_VERSION = "1.10.0"
 SYSTEM = "wheelchair"
@@ -39,6 +43,9 @@ pip install bids-validator-deno
 bids-validator-deno . --ignoreWarnings
 ```
 """
+
+PEOPLE_AT_ONCE = 50
+"""How many people's answers are in memory as text."""
 
 
 class Channel(NamedTuple):
@@ -84,14 +91,10 @@ def write(content: Content, folder: Path, tell: Tell) -> None:
     _write_json(folder / "dataset_description.json", _description(content))
     _write_people(content, folder)
     _write_answers(content, folder)
-    scans: dict[str, list[dict[str, Any]]] = {}
-    for lap in content.laps_with_steps():
-        participant = str(lap.lap["participant"])
-        tell(f"Steps of {participant}, lap {lap.lap['lap']}")
-        name = _write_recording(content, folder, lap)
-        scans.setdefault(participant, []).append({"filename": name, **lap.lap})
-    for participant, rows in scans.items():
-        _write_scans(content, folder, participant, rows)
+    for participant, laps in groupby(content.laps_with_steps(), lambda lap: lap.lap["participant"]):
+        tell(f"Recordings of {participant}")
+        rows = [{"filename": _write_recording(content, folder, lap), **lap.lap} for lap in laps]
+        _write_scans(content, folder, str(participant), rows)
     fields = {f.name: f for f in content.laps.fields}
     described = {n: _described(f) for n, f in fields.items() if n in _SCAN_COLUMNS}
     _write_json(folder / "scans.json", described)
@@ -120,44 +123,76 @@ def _write_people(content: Content, folder: Path) -> None:
     table, fields = content.participants.rows, content.participants.fields
     ids = [f"sub-{content.labels[name]}" for name in table["participant"].to_pylist()]
     renamed = table.drop_columns(["participant"]).add_column(0, "participant_id", pa.array(ids))
-    _write_tsv(folder / "participants.tsv", renamed)
+    write_table(folder / "participants.tsv", renamed, TSV)
     _write_json(folder / "participants.json", {f.name: _described(f) for f in fields[1:]})
 
 
 def _write_answers(content: Content, folder: Path) -> None:
     """Write one file per instrument: a line per participant, a column per lap and item."""
-    surveys: Table = content.surveys
+    surveys = content.surveys.rows
     tools = file_labels(instrument.name for instrument in content.study.instruments)
     for instrument in content.study.instruments:
-        answers: dict[str, dict[str, Any]] = {}
-        columns: dict[str, dict[str, Any]] = {}
-        for row in surveys.rows.to_pylist():
-            if row["instrument"] != instrument.name:
-                continue
-            about_lap = row["lap"] >= 0
-            name = f"lap{row['lap']}_{row['item']}" if about_lap else f"session_{row['item']}"
-            given = (row["response"], row["response_number"], row.get("response_text"))
-            answer = next((value for value in given if value is not None), None)
-            answers.setdefault(f"sub-{content.labels[row['participant']]}", {})[name] = answer
-            item = instrument.item(row["item"])
-            columns[name] = {
-                "Description": f"{item.text} (after lap {row['lap']}, {row['condition']})"
-                if about_lap
-                else f"{item.text} (about the whole session)"
-            }
-            if item.answer == "point":
-                labels = {str(i): text for i, text in enumerate(instrument.anchors, start=1)}
-                columns[name]["Levels"] = labels
-        if not answers:
+        answers = surveys.filter(pc.equal(surveys["instrument"], instrument.name))
+        if not len(answers):
             continue
         (folder / "phenotype").mkdir(exist_ok=True)
         path = folder / "phenotype" / f"{tools[instrument.name]}.tsv"
-        rows = [{"participant_id": n, **{c: a.get(c) for c in columns}} for n, a in answers.items()]
-        text = [{k: None if v is None else str(v) for k, v in row.items()} for row in rows]
-        names = ["participant_id", *columns]
-        _write_tsv(path, pa.Table.from_pylist(text, pa.schema([(n, pa.string()) for n in names])))
+        columns = _questions(answers, instrument)
         about = {"Description": instrument.title}
         _write_json(path.with_suffix(".json"), {"MeasurementToolMetadata": about, **columns})
+        schema = pa.schema([(name, pa.string()) for name in ("participant_id", *columns)])
+        with path.open("wb") as stream:
+            stream.write(header_line(schema.names, TSV))
+            for people in _some_at_a_time(_answered(answers, content.labels)):
+                stream.write(lines(pa.Table.from_pylist(people, schema), TSV))
+
+
+def _some_at_a_time(people: Iterator[dict[str, Any]]) -> Iterator[list[dict[str, Any]]]:
+    while some := list(islice(people, PEOPLE_AT_ONCE)):
+        yield some
+
+
+def _column(row: Mapping[str, Any]) -> str:
+    """Return the column that an answer stands in."""
+    return f"lap{row['lap']}_{row['item']}" if row["lap"] >= 0 else f"session_{row['item']}"
+
+
+def _rows(table: pa.Table) -> Iterator[dict[str, Any]]:
+    for batch in table.to_batches(max_chunksize=1000):
+        yield from batch.to_pylist()
+
+
+def _questions(answers: pa.Table, instrument: Instrument) -> dict[str, dict[str, Any]]:
+    """Return what each column is, in the order in which questions were asked.
+
+    The condition is named where everybody drove the same one in that lap.
+    """
+    asked: dict[str, tuple[int, str]] = {}
+    conditions: dict[int, set[str]] = {}
+    for row in _rows(answers.select(["lap", "item", "condition"])):
+        asked.setdefault(_column(row), (row["lap"], row["item"]))
+        conditions.setdefault(row["lap"], set()).add(str(row["condition"]))
+    columns: dict[str, dict[str, Any]] = {}
+    for name, (lap, item_id) in asked.items():
+        item = instrument.item(item_id)
+        driven = f", {next(iter(conditions[lap]))}" if len(conditions[lap]) == 1 else ""
+        when = f"after lap {lap}{driven}" if lap >= 0 else "about the whole session"
+        columns[name] = {"Description": f"{item.text} ({when})"}
+        if item.answer == "point":
+            labels = {str(i): text for i, text in enumerate(instrument.anchors, start=1)}
+            columns[name]["Levels"] = labels
+    return columns
+
+
+def _answered(answers: pa.Table, labels: Mapping[str, str]) -> Iterator[dict[str, Any]]:
+    """Yield each participant's answers as text by column."""
+    for participant, rows in groupby(_rows(answers), lambda row: row["participant"]):
+        person: dict[str, Any] = {"participant_id": f"sub-{labels[participant]}"}
+        for row in rows:
+            given = (row["response"], row["response_number"], row.get("response_text"))
+            answer = next((str(value) for value in given if value is not None), None)
+            person[_column(row)] = answer
+        yield person
 
 
 def _write_recording(content: Content, folder: Path, lap: LapSteps) -> str:
@@ -176,7 +211,7 @@ def _write_recording(content: Content, folder: Path, lap: LapSteps) -> str:
          "units": c.unit}
         for c in CHANNELS
     ]  # fmt: skip
-    _write_tsv(place / f"{stem}_channels.tsv", pa.Table.from_pylist(rows))
+    write_table(place / f"{stem}_channels.tsv", pa.Table.from_pylist(rows), TSV)
     _write_json(place / f"{stem}_motion.json", _recording(content, lap))
     return f"motion/{stem}_motion.tsv"
 
@@ -219,7 +254,7 @@ def _write_scans(
     schema = pa.schema([("filename", pa.string()), *((n, types[n]) for n in _SCAN_COLUMNS)])
     subject = f"sub-{content.labels[participant]}"
     kept = [{name: row[name] for name in schema.names} for row in rows]
-    _write_tsv(folder / subject / f"{subject}_scans.tsv", pa.Table.from_pylist(kept, schema))
+    write_table(folder / subject / f"{subject}_scans.tsv", pa.Table.from_pylist(kept, schema), TSV)
 
 
 def _described(field: Field) -> dict[str, Any]:
@@ -229,10 +264,6 @@ def _described(field: Field) -> dict[str, Any]:
     if field.values and field.kind == "string":
         entry["Levels"] = {str(value): str(value) for value in field.values}
     return entry
-
-
-def _write_tsv(path: Path, table: pa.Table) -> None:
-    path.write_bytes(header_line(table.column_names, TSV) + lines(table, TSV))
 
 
 def _write_json(path: Path, data: Any) -> None:

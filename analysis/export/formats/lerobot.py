@@ -7,7 +7,6 @@ time is a feature of its own.
 
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
@@ -18,9 +17,10 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from analysis.export.content import Content, LapSteps
+from analysis.export.frames import Frames
+from analysis.export.moments import Moments
 from analysis.export.readme import write_about
 from analysis.export.registry import Tell
-from lad.inputs import INPUT_NAMES
 from protocols.files.errors import InputError
 
 FRAMES_PER_FILE = 200_000
@@ -28,36 +28,6 @@ FRAMES_PER_FILE = 200_000
 
 EPISODES_PER_PART = 100
 """How many episodes' rows are in memory before they are written."""
-
-VECTORS: dict[str, tuple[str, ...]] = {
-    "observation.state": INPUT_NAMES,
-    "action": ("executed_v", "executed_w"),
-    "command.driver": ("intent_v", "intent_w"),
-    "command.limited": ("user_v", "user_w"),
-    "command.arbitrated": ("arbitrated_v", "arbitrated_w"),
-    "command.demonstrator": ("would_v", "would_w"),
-    "command.model": ("mean_v", "mean_w"),
-    "pose.start": ("x_m", "y_m", "heading_rad"),
-    "pose.end": ("result_x_m", "result_y_m", "result_heading_rad"),
-    "velocity.end": ("result_v", "result_w"),
-}
-"""Features of more than one number, and the step columns they are made of."""
-
-MASKED = ("command.demonstrator", "command.model", "pose.end", "takeover", "takeover.would",
-          "model.p_help")  # fmt: skip
-"""Features that can be missing; each has a truth value ``NAME.given`` beside it."""
-
-SCALARS = {
-    "takeover": ("h", "float32"),
-    "takeover.would": ("h_would", "float32"),
-    "model.p_help": ("p_help", "float32"),
-    "recorded_time_s": ("t_s", "float32"),
-    "clearance_m": ("clearance_m", "float32"),
-    "arc_m": ("arc_m", "float32"),
-    "contact": ("contact", "bool"),
-    "safeguarded": ("safeguarded", "bool"),
-}
-"""Features of one number: their step column and their type."""
 
 _ABOUT_LAPS = ("participant", "lap", "condition", "practice", "completed", "lap_time_s")
 
@@ -87,46 +57,13 @@ lerobot-doctor check . --ci
 """
 
 
-@dataclass
-class _Moments:
-    """Smallest, largest, sum and sum of squares of a feature, added up lap by lap."""
-
-    count: int = 0
-    low: NDArray[np.float64] | None = None
-    high: NDArray[np.float64] | None = None
-    mean: NDArray[np.float64] | None = None
-    square: NDArray[np.float64] | None = None  # sum of squared distances from the mean
-
-    def add(self, values: NDArray[np.float64]) -> None:
-        """Add one lap: shape (frames, numbers)."""
-        low, high, mean = values.min(axis=0), values.max(axis=0), values.mean(axis=0)
-        square = ((values - mean) ** 2).sum(axis=0)
-        if self.mean is None or self.low is None or self.high is None or self.square is None:
-            self.count, self.low, self.high = len(values), low, high
-            self.mean, self.square = mean, square
-            return
-        total = self.count + len(values)
-        apart = mean - self.mean
-        self.low, self.high = np.minimum(self.low, low), np.maximum(self.high, high)
-        self.square = self.square + square + apart**2 * (self.count * len(values) / total)
-        self.mean = self.mean + apart * (len(values) / total)
-        self.count = total
-
-    def as_stats(self) -> dict[str, list[Any]]:
-        """Return them as the format has them."""
-        if self.mean is None or self.low is None or self.high is None or self.square is None:
-            return {}
-        std = np.sqrt(self.square / self.count)
-        parts = {"min": self.low, "max": self.high, "mean": self.mean, "std": std}
-        return {name: part.tolist() for name, part in parts.items()} | {"count": [self.count]}
-
-
 def write(content: Content, folder: Path, tell: Tell) -> None:
     """Write a dataset into an empty folder."""
     fps = frames_per_second(content.study.protocol.control_period_s)
     tasks = {str(name): i for i, name in enumerate(sorted(content.study.protocol.conditions))}
     sentences = {name: task_sentence(content, name) for name in tasks}
-    with _Dataset(folder, fps, tasks, sentences) as dataset:
+    made = Frames.of(content.step_fields)
+    with _Dataset(folder, fps, made, tasks, sentences) as dataset:
         for lap in content.laps_with_steps():
             tell(f"Steps of {lap.lap['participant']}, lap {lap.lap['lap']}")
             if len(lap.steps):
@@ -138,7 +75,7 @@ def write(content: Content, folder: Path, tell: Tell) -> None:
     frame.to_parquet(folder / "meta" / "tasks.parquet")
     stats = {name: moments.as_stats() for name, moments in dataset.moments.items()}
     _write_json(folder / "meta" / "stats.json", stats)
-    _write_json(folder / "meta" / "info.json", _info(fps, len(tasks), dataset))
+    _write_json(folder / "meta" / "info.json", _info(fps, len(tasks), made, dataset))
     write_about(content, folder, _HOW)
 
 
@@ -202,11 +139,17 @@ class _Dataset:
     """
 
     def __init__(
-        self, folder: Path, fps: int, tasks: Mapping[str, int], sentences: Mapping[str, str]
+        self,
+        folder: Path,
+        fps: int,
+        made: Frames,
+        tasks: Mapping[str, int],
+        sentences: Mapping[str, str],
     ) -> None:
-        self._folder, self._fps, self._tasks, self._sentences = folder, fps, tasks, sentences
+        self._folder, self._fps, self._made = folder, fps, made
+        self._tasks, self._sentences = tasks, sentences
         self.episodes = self.frames = 0
-        self.moments: dict[str, _Moments] = {}
+        self.moments: dict[str, Moments] = {}
         self._file = self._frames_in_file = 0
         self._pending: list[dict[str, Any]] = []
         self._data = _Parts(folder / _DATA.format(0))
@@ -226,7 +169,7 @@ class _Dataset:
             self._data.close()
             self._file, self._frames_in_file = self._file + 1, 0
             self._data = _Parts(self._folder / _DATA.format(self._file))
-        columns = dict(_columns(lap.steps)) | self._indices(lap)
+        columns = dict(self._made.columns(lap.steps)) | self._indices(lap)
         self._data.add(pa.table({name: _array(values) for name, values in columns.items()}))
         self._pending.append(self._episode(lap, columns))
         self.episodes += 1
@@ -267,8 +210,8 @@ class _Dataset:
         }
         for name, values in columns.items():
             numbers = values.reshape(count, -1).astype(np.float64)
-            self.moments.setdefault(name, _Moments()).add(numbers)
-            own = _Moments()
+            self.moments.setdefault(name, Moments()).add(numbers)
+            own = Moments()
             own.add(numbers)
             row |= {f"stats/{name}/{key}": value for key, value in own.as_stats().items()}
         return row
@@ -281,40 +224,7 @@ def _episode_table(rows: list[dict[str, Any]]) -> pa.Table:
     return table.set_column(at, "lap_time_s", table["lap_time_s"].cast(pa.float64()))
 
 
-def _columns(steps: pa.Table) -> Iterator[tuple[str, NDArray[Any]]]:
-    for name, parts in VECTORS.items():
-        numbers = np.stack([_numbers(steps, part) for part in parts], axis=1)
-        yield from _masked(name, numbers)
-    for name, (column, kind) in SCALARS.items():
-        if kind == "bool":
-            yield name, _numbers(steps, column) > 0
-        else:
-            yield from _masked(name, _numbers(steps, column))
-
-
-def _numbers(steps: pa.Table, column: str) -> NDArray[np.float64]:
-    """Return a column as numbers, missing ones NaN."""
-    values = steps[column]
-    if pa.types.is_boolean(values.type):
-        values = values.cast(pa.int8())
-    numbers: NDArray[np.float64] = values.cast(pa.float64()).to_numpy(zero_copy_only=False)
-    return numbers
-
-
-def _masked(name: str, numbers: NDArray[np.float64]) -> Iterator[tuple[str, NDArray[Any]]]:
-    there: NDArray[np.bool_] = np.isfinite(numbers)
-    yield name, np.where(there, numbers, 0.0).astype(np.float32)
-    if name in MASKED:
-        yield f"{name}.given", np.asarray(there.reshape(len(there), -1).all(axis=1))
-
-
-def _array(values: NDArray[Any]) -> pa.Array:
-    if values.ndim == 1:
-        return pa.array(values)
-    return pa.FixedSizeListArray.from_arrays(pa.array(values.ravel()), values.shape[1])
-
-
-def _info(fps: int, tasks: int, done: _Dataset) -> dict[str, Any]:
+def _info(fps: int, tasks: int, made: Frames, done: _Dataset) -> dict[str, Any]:
     return {
         "codebase_version": "v3.0",
         "robot_type": "wheelchair",
@@ -328,19 +238,20 @@ def _info(fps: int, tasks: int, done: _Dataset) -> dict[str, Any]:
         "splits": {"train": f"0:{done.episodes}"},
         "data_path": "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet",
         "video_path": None,
-        "features": dict(_features()),
+        "features": dict(_features(made)),
     }
 
 
-def _features() -> Iterator[tuple[str, dict[str, Any]]]:
-    for name, parts in VECTORS.items():
-        yield name, {"dtype": "float32", "shape": [len(parts)], "names": list(parts)}
-        if name in MASKED:
-            yield f"{name}.given", {"dtype": "bool", "shape": [1], "names": None}
-    for name, (_, kind) in SCALARS.items():
-        yield name, {"dtype": kind, "shape": [1], "names": None}
-        if name in MASKED:
-            yield f"{name}.given", {"dtype": "bool", "shape": [1], "names": None}
+def _array(values: NDArray[Any]) -> pa.Array:
+    if values.ndim == 1:
+        return pa.array(values)
+    return pa.FixedSizeListArray.from_arrays(pa.array(values.ravel()), values.shape[1])
+
+
+def _features(made: Frames) -> Iterator[tuple[str, dict[str, Any]]]:
+    for name, kind, parts in made.described():
+        shape, names = ([len(parts)], list(parts)) if parts else ([1], None)
+        yield name, {"dtype": kind, "shape": shape, "names": names}
     for name in INDICES:
         kind = "float32" if name == "timestamp" else "int64"
         yield name, {"dtype": kind, "shape": [1], "names": None}

@@ -53,7 +53,8 @@ Foxglove; a layout for it comes with lad-study (`examples/`).
 | `/tf_static` | tf2_msgs/TFMessage | where the laser stands: {LASER_AHEAD:.2f} m ahead of the axle |
 
 **The calendar time is invented**: a session begins {EPOCH_S} s after 1970, and
-{BETWEEN_LAPS_S:g} s lie between laps. A topic has no message where the record has no value.
+{BETWEEN_LAPS_S:g} s lie between laps. A topic has no message where the record has no value or no time;
+a laser reading that is missing is NaN.
 """  # noqa: E501
 
 
@@ -96,6 +97,10 @@ class _Ros:
         return self.new("geometry_msgs/msg/Twist", self.vector(v), turn)
 
 
+_STATE = ("x_m", "y_m", "heading_rad", "velocity_v", "velocity_w")
+_SEGMENTS = INPUT_NAMES[-N_SEGMENTS:]
+
+
 def _twist(prefix: str) -> Callable[[_Ros, dict[str, Any], int], Any]:
     def message(ros: _Ros, row: dict[str, Any], ns: int) -> Any:
         v, w = row[f"{prefix}_v"], row[f"{prefix}_w"]
@@ -115,6 +120,8 @@ def _plain(column: str, kind: str) -> Callable[[_Ros, dict[str, Any], int], Any]
 
 
 def _odometry(ros: _Ros, row: dict[str, Any], ns: int) -> Any:
+    if any(row[n] is None for n in _STATE):
+        return None
     point = ros.new("geometry_msgs/msg/Point", row["x_m"], row["y_m"], 0.0)
     pose = ros.new("geometry_msgs/msg/Pose", point, ros.turned(row["heading_rad"]))
     twist = ros.twist(row["velocity_v"], row["velocity_w"])
@@ -127,7 +134,10 @@ def _odometry(ros: _Ros, row: dict[str, Any], ns: int) -> Any:
 
 
 def _scan(ros: _Ros, row: dict[str, Any], ns: int) -> Any:
-    ranges = np.array([row[n] for n in INPUT_NAMES[-N_SEGMENTS:]], dtype=np.float32)
+    if all(row[n] is None for n in _SEGMENTS):
+        return None
+    # A reading that is not a number is none, as sensor_msgs/LaserScan has it.
+    ranges = np.array([row[n] for n in _SEGMENTS], dtype=np.float32)
     first = float(-np.pi / 2 + WIDTH_RAD / 2)
     return ros.new(
         "sensor_msgs/msg/LaserScan", ros.header(ns, LASER), first, -first, float(WIDTH_RAD), 0.0,
@@ -159,14 +169,15 @@ def write(content: Content, folder: Path, tell: Tell) -> None:
     for participant, laps in groupby(content.laps_with_steps(), lambda lap: lap.lap["participant"]):
         tell(f"Recording of {participant}")
         with (folder / f"{participant}.mcap").open("wb") as stream:
-            _Recording(stream).write(laps)
+            _Recording(stream, content.study.protocol.control_period_s).write(laps)
     write_about(content, folder, _HOW)
 
 
 class _Recording:
     """The recording of one participant's session."""
 
-    def __init__(self, stream: IO[bytes]) -> None:
+    def __init__(self, stream: IO[bytes], period_s: float) -> None:
+        self._period_s = period_s
         self._ros = _Ros(get_typestore(Stores.ROS2_HUMBLE))
         self._writer = Writer(stream)
         self._kinds = {topic.name: topic.kind for topic in TOPICS}
@@ -197,13 +208,14 @@ class _Recording:
         row = {n: lap.lap[n] for n in ("participant", "lap", "condition", "practice", "training")}
         self._say({"event": "start", **row}, begin)
         steps = lap.steps.to_pylist()
-        for step in steps:
+        timed = [step for step in steps if step["t_s"] is not None]
+        for step in timed:
             ns = begin + round(step["t_s"] * 1e9)
             for topic in TOPICS:
                 message = topic.message(self._ros, step, ns)
                 if message is not None:
                     self._send(topic.name, message, ns)
-        end = begin + round(_end_s(steps) * 1e9)
+        end = begin + round((timed[-1]["t_s"] + self._period_s) * 1e9) if timed else begin
         self._after(lap, steps, end)
         ending = {n: lap.lap[n] for n in ("completed", "end_reason", "lap_time_s")}
         self._say({"event": "end", **row, **ending}, end)
@@ -211,18 +223,17 @@ class _Recording:
 
     def _after(self, lap: LapSteps, steps: list[dict[str, Any]], end: int) -> None:
         """Write the state after the last step, where the record has it."""
-        if not steps or steps[-1]["result_x_m"] is None:
+        if not steps:
             return
         last = steps[-1]
-        state = {n: last[f"result_{n}"] for n in ("x_m", "y_m", "heading_rad")}
-        state |= {"velocity_v": last["result_v"], "velocity_w": last["result_w"]}
-        self._send("/odom", _odometry(self._ros, state, end), end)
-        seen = {
-            name: lap.lap[f"last_segment_{i:02d}"]
-            for i, name in enumerate(INPUT_NAMES[-N_SEGMENTS:])
-        }
-        if None not in seen.values():
-            self._send("/scan", _scan(self._ros, seen, end), end)
+        state = {n: last[f"result_{n.removeprefix('velocity_')}"] for n in _STATE}
+        seen = {name: lap.lap[f"last_segment_{i:02d}"] for i, name in enumerate(_SEGMENTS)}
+        for topic, message in (
+            ("/odom", _odometry(self._ros, state, end)),
+            ("/scan", _scan(self._ros, seen, end)),
+        ):
+            if message is not None:
+                self._send(topic, message, end)
 
     def _say(self, what: dict[str, Any], ns: int) -> None:
         text = self._ros.new("std_msgs/msg/String", json.dumps(what))
@@ -239,11 +250,3 @@ class _Recording:
         header = self._ros.header(EPOCH_S * 10**9, BASE)
         stamped = self._ros.new("geometry_msgs/msg/TransformStamped", header, LASER, transform)
         return self._ros.new("tf2_msgs/msg/TFMessage", [stamped])
-
-
-def _end_s(steps: list[dict[str, Any]]) -> float:
-    """Return when the last step ended, s after the lap's start."""
-    if not steps:
-        return 0.0
-    period = (steps[1]["t_s"] - steps[0]["t_s"]) if len(steps) > 1 else 0.1
-    return float(steps[-1]["t_s"] + period)

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from analysis.export.content import Content
-from analysis.export.csv_files import small_tables, table_bytes
-from analysis.export.delimited import header_line, lines
+from analysis.export.csv_files import small_tables
+from analysis.export.delimited import header_line, lines, write_table
 from analysis.export.field import Field, Kind
 from analysis.export.file_labels import file_label, renamed_text
 from analysis.export.readme import write_about
@@ -39,7 +39,7 @@ def write(content: Content, folder: Path, tell: Tell) -> None:
     (data / "steps").mkdir(parents=True)
     for table in small_tables(content):
         name = f"study-{file_label(content.name)}_description-{table.name}_data.csv"
-        (data / name).write_bytes(table_bytes(table))
+        write_table(data / name, table.rows)
     header = header_line([field.name for field in content.step_fields])
     for lap, steps in content.laps_with_steps():
         tell(f"Steps of {lap['participant']}, lap {lap['lap']}")

@@ -130,3 +130,12 @@ class AnswersMapping(FileModel):
         if (self.wide is None) == (self.long is None):
             raise ValueError("give either wide or long")
         return self
+
+    @model_validator(mode="after")
+    def _labels_differ(self) -> Self:
+        if self.labels != "anchors":
+            folded = [label.casefold() for label in self.labels]
+            again = next((label for i, label in enumerate(folded) if label in folded[:i]), None)
+            if again is not None:
+                raise ValueError(f"labels: {again!r} is there twice; upper and lower case are one")
+        return self

@@ -1,5 +1,6 @@
 """Find who answered what, and turn it into points of the instrument's scale."""
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -9,6 +10,10 @@ from protocols.files.suggestion import allowed, listed
 from protocols.importing.answers.mapping import AnswersMapping
 from protocols.importing.answers.sheet import Sheet
 from protocols.instrument import Instrument, Item
+
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)", re.ASCII)
+_WITH_COMMA = re.compile(r"[+-]?(\d{1,3}(\.\d{3})+|\d+)?(,\d*)?", re.ASCII)
+"""Points divide thousands where a comma divides decimals; ``1.5`` is no number then."""
 
 Key = tuple[str, int, str]
 """Participant, lap and item."""
@@ -97,10 +102,6 @@ class _Reading:
         anchors = {text: i for i, text in enumerate(instrument.anchors, start=1)}
         labels = anchors if mapping.labels == "anchors" else mapping.labels
         self._labels = {label.casefold(): point for label, point in labels.items()}
-        for name in mapping.reversed:
-            if name not in instrument.ids(assisted=True):
-                ids = instrument.ids(assisted=True)
-                raise InputError(f"reversed: {name!r} is no item; {allowed(name, ids)}")
 
     def rows(self) -> Iterator[tuple[str, str, dict[str, str]]]:
         """Yield where each row stands, who answered, and the row; those to drop are passed over."""
@@ -162,11 +163,10 @@ class _Reading:
 
     def _number(self, text: str) -> float | None:
         if self.mapping.decimal == ",":
+            if not _WITH_COMMA.fullmatch(text):
+                return None
             text = text.replace(".", "").replace(",", ".")
-        try:
-            return float(text)
-        except ValueError:
-            return None
+        return float(text) if _NUMBER.fullmatch(text) else None
 
 
 def _wide(reading: _Reading) -> Iterator[Given]:

@@ -5,8 +5,10 @@ from pathlib import Path
 from typing import Any
 
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.parquet as pq
 
+from protocols.files.document import Document
 from protocols.files.errors import InputError
 from protocols.files.suggestion import allowed
 from protocols.importing.answers.mapping import AnswersMapping
@@ -48,7 +50,7 @@ def import_answers(file: Path, mapping_path: Path, study_dir: Path) -> ImportedA
     """Add the answers of one instrument to a study.
 
     Questions that the protocol asks and the file does not answer are recorded as not answered.
-    Answers to other instruments stay; those to this one are replaced.
+    Answers to other instruments stay, and of people who are not in the file; others are replaced.
 
     Parameters
     ----------
@@ -70,10 +72,16 @@ def import_answers(file: Path, mapping_path: Path, study_dir: Path) -> ImportedA
         raise InputError(
             f"{study_dir}: recorded its answers itself; allowed: a study with origin elsewhere"
         )
-    instrument = _instrument(study, mapping, str(document.source))
+    instrument = _instrument(study, mapping, document)
     laps = {(row["participant"], row["lap"]): row["condition"] for row in study.laps.to_pylist()}
     people = frozenset(study.participants["participant"].to_pylist())
     found = match(read_sheet(file, mapping), mapping, instrument, people)
+    there = {key[0] for key in found.answers}
+    if not there:
+        raise InputError(
+            f"{file}: nobody in it is in the study; allowed: {', '.join(sorted(people))}, or "
+            "'ids' in the mapping"
+        )
     nowhere = sorted({key[:2] for key in found.answers} - laps.keys())
     planned = _planned(study, instrument)
     answers = dict.fromkeys(planned) | {
@@ -89,8 +97,8 @@ def import_answers(file: Path, mapping_path: Path, study_dir: Path) -> ImportedA
         )
         for (who, lap, item), value in in_order
     ]  # fmt: skip
-    _write(study, instrument, rows)
-    silent = sorted(people - {key[0] for key in found.answers})
+    _write(study, instrument, rows, there)
+    silent = sorted(people - there)
     words = [
         *found.unmatched,
         *(f"{who} did not drive lap {lap}" for who, lap in nowhere),
@@ -100,15 +108,23 @@ def import_answers(file: Path, mapping_path: Path, study_dir: Path) -> ImportedA
     return ImportedAnswers(len(rows), answered, tuple(words))
 
 
-def _instrument(study: Study, mapping: AnswersMapping, source: str) -> Instrument:
-    names = [instrument.name for instrument in study.instruments]
-    for instrument in study.instruments:
-        if instrument.name == mapping.instrument:
-            return instrument
-    raise InputError(
-        f"{source}: instrument: the study asks no {mapping.instrument!r}; "
-        f"{allowed(mapping.instrument, names)}"
-    )
+def _instrument(study: Study, mapping: AnswersMapping, document: Document) -> Instrument:
+    """Return the instrument that was asked; refuse items to reverse that it does not have."""
+    by_name = {instrument.name: instrument for instrument in study.instruments}
+    instrument = by_name.get(mapping.instrument)
+    if instrument is None:
+        raise InputError(
+            f"{document.source}:{document.line(('instrument',))}: instrument: the study asks no "
+            f"{mapping.instrument!r}; {allowed(mapping.instrument, by_name)}"
+        )
+    ids = instrument.ids(assisted=True)
+    for i, name in enumerate(mapping.reversed):
+        if name not in ids:
+            line = document.line(("reversed", i))
+            raise InputError(
+                f"{document.source}:{line}: reversed: {name!r} is no item; {allowed(name, ids)}"
+            )
+    return instrument
 
 
 def _planned(study: Study, instrument: Instrument) -> set[Key]:
@@ -145,13 +161,18 @@ def _response(
         raise InputError(f"{file}: {item}: {error}") from None
 
 
-def _write(study: Study, instrument: Instrument, rows: list[SurveyRow]) -> None:
+def _write(study: Study, instrument: Instrument, rows: list[SurveyRow], people: set[str]) -> None:
+    """Write rows of an instrument; those of people who are not in the file only where none are."""
     table = pa.Table.from_pylist([asdict(row) for row in rows], schema=SURVEY_SCHEMA)
     path = study.folder / SURVEYS_TABLE
     if path.exists():
-        there = study.surveys.select(SURVEY_SCHEMA.names).cast(SURVEY_SCHEMA)
-        others = [name != instrument.name for name in there["instrument"].to_pylist()]
-        table = pa.concat_tables([there.filter(pa.array(others, pa.bool_())), table])
+        before = study.surveys.select(SURVEY_SCHEMA.names).cast(SURVEY_SCHEMA)
+        ours = pc.equal(before["instrument"], instrument.name)
+        in_file = pc.is_in(before["participant"], pa.array(sorted(people), pa.string()))
+        kept = before.filter(pc.invert(pc.and_(ours, in_file)))
+        answered = kept.filter(pc.equal(kept["instrument"], instrument.name))["participant"]
+        new = table.filter(pc.invert(pc.is_in(table["participant"], answered.combine_chunks())))
+        table = pa.concat_tables([kept, new])
     order = [("participant", "ascending"), ("lap", "ascending")]
     try:
         write_whole(path, parquet_bytes(table.sort_by(order)))

@@ -25,6 +25,9 @@ from protocols.importing.mapping_file import read_mapping
 _CENTRELINE_M = 0.01
 """How far the course's centreline may be from the smooth path, m."""
 
+_APART_M = 0.05
+"""Points to pass that are nearer to each other than this are the same, m."""
+
 
 @dataclass(frozen=True)
 class ImportedCourse:
@@ -74,9 +77,7 @@ def import_course(drawn: RosMap, route_path: Path) -> ImportedCourse:
     _check_inside(drawn, route, floor, inside, document)
     path = path_through(floor, inside, route.clearance_m)
     if isinstance(path, int):
-        where = ("via", path - 1)
-        before = "the start" if path == 1 else f"via {path - 1}"
-        raise _fault(document, where, f"nothing as wide as the chair gets there from {before}")
+        raise _unreached(path, document)
     back = doubling_back(path, _step(path))
     if back is not None:
         x, y = drawn.outward(float(back[0]), float(back[1]))
@@ -94,6 +95,16 @@ def import_course(drawn: RosMap, route_path: Path) -> ImportedCourse:
     if fault is not None:
         raise InputError(f"{route_path}: the course cannot be driven: {fault.message}")
     return ImportedCourse(course, found, walls.corners, floor.specks, _too_tight(course))
+
+
+def _unreached(number: int, document: Document) -> InputError:
+    """Return the fault of a point that the chair does not reach; 0 is the start."""
+    if number == 0:
+        message = "stands nearer to a wall than half the chair's width; allowed: more room"
+        return _fault(document, ("start",), message)
+    before = "the start" if number == 1 else f"via {number - 1}"
+    message = f"nothing as wide as the chair gets there from {before}"
+    return _fault(document, ("via", number - 1), message)
 
 
 def _step(path: NDArray[np.float64]) -> float:
@@ -140,19 +151,21 @@ def _check_on_map(
     x, y = drawn.inward(*place)
     width, height = drawn.size
     if not (0 <= x < width and 0 <= y < height):
-        low, high = drawn.outward(0, 0), drawn.outward(width, height)
-        raise _fault(
-            document, where,
-            f"({place[0]:g}, {place[1]:g}) is not on the map; allowed: from ({low[0]:.2f}, "
-            f"{low[1]:.2f}) to ({high[0]:.2f}, {high[1]:.2f})",
-        )  # fmt: skip
+        corners = ((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))
+        named = ", ".join("({:.2f}, {:.2f})".format(*drawn.outward(*at)) for at in corners)
+        message = f"({place[0]:g}, {place[1]:g}) is not on the map; allowed: between its corners"
+        raise _fault(document, where, f"{message} {named}")
 
 
 def _check_inside(
     drawn: RosMap, route: Route, floor: Floor, inside: tuple[Point, ...], document: Document
 ) -> None:
-    """Refuse points that are in walls, or on floor that is not connected with the start."""
+    """Refuse points that are in walls, cut off from the start, or where the one before stands."""
     for i, place in enumerate(route.via):
+        if math.dist(inside[i], inside[i + 1]) < _APART_M:
+            before = "the start" if i == 0 else f"via {i}"
+            message = f"({place[0]:g}, {place[1]:g}) is where {before} is; allowed: another place"
+            raise _fault(document, ("via", i), message)
         _check_on_map(drawn, place, document, ("via", i))
         index = floor.index(*inside[i + 1])
         if index is None or not floor.free[index]:

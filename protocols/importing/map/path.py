@@ -58,9 +58,11 @@ def path_through(floor: Floor, points: tuple[Point, ...], clearance: float) -> (
     -------
     NDArray or int
         Shape (n, 2), m; or the index of the first point that cannot be reached by something as
-        wide as the chair.
+        wide as the chair, 0 where the start itself has too little room.
     """
     grid = _grid(floor, clearance)
+    if not grid.passable[grid.index(*points[0])]:
+        return 0
     graph = _graph(grid)
     legs: list[NDArray[np.float64]] = []
     for i in range(1, len(points)):

@@ -4,6 +4,8 @@ import shutil
 import subprocess
 import sys
 
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
 from analysis.export import registry
@@ -68,6 +70,36 @@ def test_a_step_file_that_is_damaged_is_named(study, tmp_path):
     with pytest.raises(InputError, match=r"P0003/steps-2\.parquet: not a readable Parquet file"):
         export_study(copied, "frictionless", tmp_path / "out")
     assert not (tmp_path / "out").exists()
+
+
+def _with_gaps(study):
+    """Make a study one of another program that recorded neither pose nor time in step 5."""
+    head = (study.folder / "study.yaml").read_text()
+    changed = head.replace("origin: simulated", "origin: elsewhere")
+    (study.folder / "study.yaml").write_text(changed)
+    for path in study.folder.rglob("steps-*.parquet"):
+        table = pq.read_table(path)
+        for name in ("x_m", "t_s", "segment_03", "user_v", "contact", "control"):
+            values = table[name].to_pylist()
+            values[5] = None
+            at = table.schema.get_field_index(name)
+            field = pa.field(name, table.schema.field(name).type)
+            table = table.set_column(at, field, pa.array(values, field.type))
+        pq.write_table(table, path)
+    return study.folder
+
+
+@pytest.mark.parametrize("name", ["bids", "lerobot", "mcap"])
+def test_what_other_programs_did_not_record_is_no_number(name, make_study, tmp_path):
+    """Missing poses, times and commands stay missing: a mask, no message, n/a."""
+    export_study(_with_gaps(make_study(participants=1)), name, tmp_path / "out")
+    if name == "lerobot":
+        data = pq.read_table(tmp_path / "out" / "data" / "chunk-000" / "file-000.parquet")
+        assert data["pose.start.given"][4:7].to_pylist() == [True, False, True]
+        assert data["contact.given"][5].as_py() is False
+    if name == "bids":
+        path = min((tmp_path / "out").rglob("*_motion.tsv"))
+        assert path.read_text().splitlines()[5].startswith("n/a\t")
 
 
 def test_an_unknown_format_is_refused():

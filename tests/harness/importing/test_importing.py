@@ -109,6 +109,31 @@ def test_a_gap_is_named_and_imported(bring_in):
     assert float(found[1]) == pytest.approx(2.0, abs=0.15)
 
 
+def test_what_is_no_number_is_named_and_left_out(bring_in):
+    """A pose of NaN, one whose orientation was never filled in, a command of NaN on two topics."""
+
+    def spoil(bag):
+        odometry = [message for topic, _, _, message in bag.messages if topic == "/odom"]
+        odometry[40].pose.pose.position.x = np.nan
+        odometry[80].pose.pose.orientation.z = odometry[80].pose.pose.orientation.w = 0.0
+        next(
+            m for topic, _, t, m in bag.messages if topic == "/cmd_vel" and t > 1003
+        ).twist = bag.twist(np.nan, 0.0)
+
+    done, study = bring_in(change=spoil)
+    named = [re.search(r"(/\w+: \d+) of \d+ (\w+) are no numbers", t) for t in done.troubles]
+    assert [match.groups() for match in named] == [
+        ("/odom: 2", "poses"),
+        ("/cmd_vel: 1", "commands"),
+        ("/demonstrator: 1", "commands"),
+    ]
+    line = Centreline(study.course)
+    steps = study.steps("P0001", 0).to_pandas()
+    wanted = np.array([line.point(SPEED * t)[:2] for t in steps["t_s"]])
+    assert np.hypot(*(steps[["x_m", "y_m"]].to_numpy() - wanted).T).max() < 0.005
+    assert np.allclose(steps["executed_v"], 0.3)
+
+
 def test_a_transform_that_does_not_fit_is_named(bring_in):
     """The laps begin somewhere else."""
     done, _ = bring_in(pose="pose: {topic: /odom}")
@@ -158,6 +183,7 @@ def _drop(topic):
             {"starts": "starts: {topic: /lap, text: '('}"},
             "map.yaml:9: starts: text: not a reg",
         ),
+        (None, {"takeover": "takeover: {topic: /joy, button: 7}"}, "a joystick of 2 buttons; all"),
         (None, {"demonstrator": ""}, "takeover and demonstrator belong together"),
         (None, {"scan": "scan: {topic: /scan, forward: 1}"}, "map.yaml:4: scan.forward: "),
         (None, {"intent": "intent: {topic: /joy, stick: {axis_v: 7}}"}, "a joystick of 2 axes"),

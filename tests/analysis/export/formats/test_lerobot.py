@@ -8,7 +8,8 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
-from analysis.export.formats.lerobot import VECTORS, frames_per_second
+from analysis.export.formats.lerobot import frames_per_second
+from analysis.export.frames import VECTORS
 from protocols.files.errors import InputError
 
 

@@ -95,6 +95,16 @@ def test_questions_that_the_file_does_not_answer_are_on_record(bring_in):
     assert "P0002 is not in the file" in done.unmatched
 
 
+def test_a_second_file_leaves_the_answers_of_others(bring_in, tmp_path):
+    """Who is not in it keeps what was brought in before; who is gets the new answers."""
+    _, study = bring_in("who,L1.Q1\nP0001,4\nP0002,2\n")
+    (tmp_path / "more.csv").write_text("who,L1.Q1\nP0002,3\n")
+    import_answers(tmp_path / "more.csv", tmp_path / "map.yaml", study.folder)
+    after = given(open_study(study.folder))
+    assert after.keys() == given(study).keys()
+    assert (after["P0001", 1, "Q1"], after["P0002", 1, "Q1"]) == (4, 3)
+
+
 def test_what_belongs_to_nothing_is_listed(bring_in):
     """Columns, people and laps that the study does not have."""
     done, _ = bring_in("who,when,L1.Q1,L1.Q99,L7.Q1\nP0001,1,4,4,4\nP0002,,3,,\nP0009,1,4,4,4\n")
@@ -133,7 +143,11 @@ def test_qualtrics_extra_rows_previews_and_semicolons(bring_in):
         ("who,Q1\nP0001,4\n", "", "no column is like 'L{lap}.{item}'"),
         ("who;L1.Q1\nP0001;4\n", "", "f.csv:1: 1 column; is the separator ',' right?"),
         ("who,L1.Q1\nP0001,4,5\n", "", "f.csv:2: 3 values; allowed: 2"),
-        ("who,L1.Q1\nP0001,4\n", "reversed: [Q77]", "reversed: 'Q77' is no item"),
+        ("who,L1.Q1\nP0001,4\n", "reversed: [Q77]", "map.yaml:5: reversed: 'Q77' is no item"),
+        ("who,L1.Q1\nP0001,nan\n", "", "f.csv:2: column 'L1.Q1': 'nan' is no answer to Q1"),
+        ("who;L1.Q1\nP0001;4.0\n", "decimal: ','\nseparator: ;", "'4.0' is no answer to Q1"),
+        ("who,L1.Q1\nP0009,4\n", "", "f.csv: nobody in it is in the study; allowed: P0001, P0002"),
+        ("who,L1.Q1\n", "", "f.csv: nobody in it is in the study"),
         ("who,L1.Q1,L1.Q1\nP0001,4,4\n", "", "column 'L1.Q1' is there twice"),
     ],
 )
@@ -161,6 +175,7 @@ def test_text_that_looks_like_nothing_is_text(bring_in):
     [
         ("long: {item: a, answer: b, lap: 1}", r"map\.yaml:1: give either wide or long"),
         ("firstlap: 1", r"map\.yaml:5: firstlap: .*did you mean 'first_lap'"),
+        ("labels: {Yes: 5, yes: 4}", r"map\.yaml:1: labels: 'yes' is there twice"),
         ("doubled: first", r"map\.yaml:5: doubled: "),
     ],
 )

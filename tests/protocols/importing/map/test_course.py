@@ -123,10 +123,18 @@ def test_a_turned_map_gives_the_same_course_turned(draw_course, route, tmp_path)
             {"via": "via: [[-1.2, -2.0], [-0.5, 0.0]]", "gates": ""},
             "via.0: (-1.2, -2) is in a wall",
         ),
+        (
+            {"start": "start: {x: 0, y: 0.85, heading: 0}"},
+            "route.yaml:3: start: stands nearer to a wall than half the chair's width",
+        ),
         ({"gates": "gates: [R1, R2]"}, "route.yaml:8: gates: 2 names; allowed: 3"),
         ({"gates": "gates: [R1, R1, F]"}, "route.yaml:8: gates: names must differ"),
         ({"gates": "gates: [R1, R2, null]"}, "route.yaml:8: gates: the last via needs a name"),
         ({"gates": "clearence_m: 1"}, "route.yaml:8: clearence_m: "),
+        (
+            {"via": "via: [[0.0, 0.02], [1.5, 0.0]]", "gates": ""},
+            "route.yaml:4: via.0: (0, 0.02) is where the start is",
+        ),
         (
             {"via": "via: [[1.5, 0.0], [0.2, 0.0]]", "gates": ""},
             "route.yaml:4: via: the route doubles back at",
