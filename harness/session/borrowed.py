@@ -16,6 +16,7 @@ from lad.command import Command
 from lad.errors import ModelFileError
 from lad.inputs import INPUT_NAMES
 from lad.lad_assistant import LADAssistant
+from lad.trained import from_bytes
 from protocols.files.errors import InputError
 from protocols.model_choice import BorrowedModel
 from protocols.orders import Orders
@@ -93,7 +94,7 @@ def model_file(source: BorrowedModel, folder: Path | None, number: int) -> bytes
 
 def _restored(data: bytes, name: str) -> Assistant:
     try:
-        return LADAssistant.from_bytes(data, f"model {name!r}")
+        return from_bytes(data, f"model {name!r}")
     except ModelFileError as error:
         raise InputError(str(error)) from None
 
