@@ -48,29 +48,29 @@ def _blocks(found: Policies) -> list[Block]:
     if len(found.demonstrators):
         caption = (
             "How the demonstrators who taught the model differ: differences within participants, "
-            "95% interval. " + "; ".join(f"{name}: {what}" for name, what in MEASURES.items()) + "."
+            "95% interval."
         )
         blocks.append(table("demonstrators", caption, found.demonstrators, _DEMONSTRATORS))
     return blocks
 
 
 def _between(low: Any, high: Any) -> str:
-    return f"{number(low)} to {number(high)}"
+    return f"{number(low, 2)} to {number(high, 2)}"
 
 
 _SECTIONS = [
     Shown("section", lambda r: r["section"], words=True),
     Shown("would help", lambda r: f"{r['helping']:.0%}"),
     Shown("undecided", lambda r: f"{r['undecided']:.0%}"),
-    Shown("spread of the command", lambda r: number(r["spread"])),
+    Shown("spread of the command", lambda r: number(r["spread"], 2)),
 ]
 _DEMONSTRATORS = [
     Shown("demonstrators", lambda r: r["pair"], words=True),
     Shown("section", lambda r: r["section"], words=True),
-    Shown("measure", lambda r: r["measure"], words=True),
-    Shown("first", lambda r: number(r["one"])),
-    Shown("second", lambda r: number(r["other"])),
-    Shown("difference", lambda r: number(r["difference"])),
+    Shown("measure", lambda r: MEASURES[r["measure"]], words=True),
+    Shown("first", lambda r: number(r["one"], 2)),
+    Shown("second", lambda r: number(r["other"], 2)),
+    Shown("difference", lambda r: number(r["difference"], 2)),
     Shown("95%", lambda r: _between(r["low"], r["high"])),
     Shown("n", lambda r: str(r["n"])),
 ]
