@@ -61,6 +61,36 @@ class LimitationSettings(FileModel):
         return self
 
 
+class Corrections(FileModel):
+    """When a demonstrator takes over from the model that helps.
+
+    Attributes
+    ----------
+    tolerance
+        How far the model's command may be from the demonstrator's, in shares of the chair's top
+        speeds; without help the user's own command is compared.
+    patience_s
+        How long it must be farther off, or no help given where the demonstrator would help, before
+        the demonstrator takes over, in s.
+    """
+
+    tolerance: Annotated[float, Field(ge=0, le=2)] = 0.3
+    patience_s: Annotated[float, Field(ge=0, le=5)] = 0.3
+
+
+class LatentHelp(FileModel):
+    """Training in which the model is not told when help was given.
+
+    Attributes
+    ----------
+    command_noise
+        Standard deviation of the error with which the command that counted is known to the model,
+        in m/s and in rad/s; 0 for none.
+    """
+
+    command_noise: Annotated[float, Field(ge=0, le=0.5)] = 0.0
+
+
 class Condition(FileModel):
     """One way of driving a lap.
 
@@ -79,6 +109,15 @@ class Condition(FileModel):
     model
         Whose model predicts, and helps where the assistant is a model: ``own``, or one of the
         protocol's ``models``.
+    corrections
+        The model helps, the demonstrator takes over only where needed, and the model learns those
+        steps; None for not.
+    latent_h
+        The model learns after the lap from when it infers that help was given; None where it is
+        told.
+    demonstrator
+        Who watches and helps: ``own``, the cohort's demonstrator, or one of the protocol's
+        ``demonstrators``.
     """
 
     limitation: LimitationSettings | None = None
@@ -87,11 +126,18 @@ class Condition(FileModel):
     safeguard: bool = True
     training: bool = False
     model: Name = "own"
+    corrections: Corrections | None = None
+    latent_h: LatentHelp | None = None
+    demonstrator: Name = "own"
 
     @model_validator(mode="after")
     def _training_needs_a_demonstrator(self) -> Self:
-        if self.training and self.assistant != "demonstrator":
-            raise ValueError("training: true needs assistant: demonstrator")
+        if self.corrections is not None and (self.assistant != "model" or not self.training):
+            raise ValueError("corrections need assistant: model and training: true")
+        if self.latent_h is not None and (self.assistant != "demonstrator" or not self.training):
+            raise ValueError("latent_h needs assistant: demonstrator and training: true")
+        if self.training and self.assistant != "demonstrator" and self.corrections is None:
+            raise ValueError("training: true needs assistant: demonstrator, or corrections")
         if self.training and self.model != "own":
             raise ValueError("training: true needs model: own; a borrowed model learns nothing")
         return self

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 
-from protocols.cohort import Cohort
+from protocols.cohort import Cohort, DemonstratorChoice
 from protocols.condition import Condition
 from protocols.declared import Comparison
 from protocols.files.fault import Fault, InconsistentError, Location
@@ -11,6 +11,7 @@ from protocols.groups import Group
 from protocols.laps import AskedInstrument, PlannedLap
 from protocols.model_choice import BorrowedModel
 from protocols.orders import Orders, legal_orders, order_faults, put_in_order, untaught
+from protocols.shipped_parts import LIVE
 
 
 def check_consistency(
@@ -24,6 +25,7 @@ def check_consistency(
     orders: Orders | None = None,
     groups: Mapping[str, Group] | None = None,
     models: Mapping[str, BorrowedModel] | None = None,
+    demonstrators: Mapping[str, DemonstratorChoice] | None = None,
 ) -> None:
     """Refuse a protocol whose parts contradict one another.
 
@@ -37,8 +39,9 @@ def check_consistency(
         Whether the model may have been taught before the study.
     survey
         What is asked after the last lap.
-    orders, groups, models
-        As the protocol has them; None for a fixed order, no groups and no borrowed models.
+    orders, groups, models, demonstrators
+        As the protocol has them; None for a fixed order, no groups, no borrowed models and no
+        further demonstrators.
 
     Raises
     ------
@@ -51,7 +54,9 @@ def check_consistency(
         *_lap_faults(conditions, laps, taught, orders or Orders()),
         *_model_faults(conditions, models or {}, ("conditions",)),
         *_pilot_faults(conditions, laps, models or {}),
-        *_group_faults(conditions, groups or {}, models or {}, cohort),
+        *_demonstrator_faults(conditions, demonstrators or {}, ("conditions",)),
+        *_further_faults(demonstrators or {}, cohort),
+        *_group_faults(conditions, groups or {}, models or {}, demonstrators or {}, cohort),
         *_analysis_faults(conditions, laps, analyses),
     )
     if faults:
@@ -63,13 +68,47 @@ def _absent_faults(
 ) -> Iterator[Fault]:
     """Find what needs a demonstrator or a respondent in a study without one."""
     for name, condition in conditions.items():
-        if cohort.demonstrator is None and condition.assistant == "demonstrator":
+        if cohort.demonstrator is None and (where := _needs_a_demonstrator(condition)):
             message = "needs a demonstrator; allowed: another assistant, or cohort.demonstrator"
-            yield Fault(("conditions", name, "assistant"), message)
+            yield Fault(("conditions", name, where), message)
     for i, lap in enumerate(laps):
         if cohort.respondent is None and lap.survey:
             message = "there is no respondent; allowed: no survey, or cohort.respondent"
             yield Fault(("laps", i, "survey"), message)
+
+
+def _needs_a_demonstrator(condition: Condition) -> str | None:
+    """Return the field of a condition that cannot do without a demonstrator; None for none."""
+    if condition.assistant == "demonstrator":
+        return "assistant"
+    return None if condition.corrections is None else "corrections"
+
+
+def _demonstrator_faults(
+    conditions: Mapping[str, Condition],
+    demonstrators: Mapping[str, DemonstratorChoice],
+    at: Location,
+) -> Iterator[Fault]:
+    known = ["own", *demonstrators]
+    for name, condition in conditions.items():
+        if condition.demonstrator not in known:
+            message = f"'{condition.demonstrator}' is no demonstrator of this protocol; "
+            message += allowed(condition.demonstrator, known)
+            yield Fault((*at, name, "demonstrator"), message)
+
+
+def _further_faults(
+    demonstrators: Mapping[str, DemonstratorChoice], cohort: Cohort
+) -> Iterator[Fault]:
+    for name, choice in demonstrators.items():
+        at: Location = ("demonstrators", name)
+        if name == "own":
+            yield Fault(at, "own is the cohort's demonstrator; allowed: another name")
+        if cohort.demonstrator is None:
+            yield Fault(at, "is one further; allowed: only with a cohort.demonstrator")
+        if choice.use == LIVE:
+            message = "there is one seat for a living demonstrator; allowed: cohort.demonstrator"
+            yield Fault((*at, "use"), message)
 
 
 def _unknown_condition(given: str, conditions: Mapping[str, Condition]) -> str:
@@ -159,6 +198,7 @@ def _group_faults(
     conditions: Mapping[str, Condition],
     groups: Mapping[str, Group],
     models: Mapping[str, BorrowedModel],
+    demonstrators: Mapping[str, DemonstratorChoice],
     cohort: Cohort,
 ) -> Iterator[Fault]:
     if len(groups) == 1:
@@ -169,11 +209,12 @@ def _group_faults(
             if condition not in conditions:
                 yield Fault((*at, condition), _unknown_condition(condition, conditions))
         yield from _model_faults(group.conditions, models, at)
+        yield from _demonstrator_faults(group.conditions, demonstrators, at)
         absent = cohort.demonstrator is None and group.demonstrator is None
         for condition, settings in group.conditions.items():
-            if absent and settings.assistant == "demonstrator":
+            if absent and (where := _needs_a_demonstrator(settings)):
                 message = "needs a demonstrator; allowed: another assistant, or a demonstrator"
-                yield Fault((*at, condition, "assistant"), message)
+                yield Fault((*at, condition, where), message)
 
 
 def _session_survey_faults(surveys: tuple[AskedInstrument, ...], cohort: Cohort) -> Iterator[Fault]:

@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from protocols.cohort import Cohort
+from protocols.cohort import Cohort, DemonstratorChoice
 from protocols.condition import Condition
 from protocols.consistency import check_consistency
 from protocols.declared import Comparison, Exclusion
@@ -62,6 +62,8 @@ class StudyProtocol(FileModel):
         The model that a participant teaches: the conditions' model ``own``.
     models
         Models that others have taught, by the name that conditions give them.
+    demonstrators
+        Further demonstrators, by the name that conditions give them; they teach the same model.
     registration
         SHA-256 of the registration that the study follows; filled in by ``run --registration``.
     control_period_s
@@ -100,6 +102,9 @@ class StudyProtocol(FileModel):
     groups: dict[Name, Group] = Field(default_factory=dict)
     model: ModelChoice = ModelChoice()
     models: dict[Name, BorrowedModel] = Field(default_factory=dict)
+    demonstrators: Annotated[dict[Name, DemonstratorChoice], Field(max_length=20)] = Field(
+        default_factory=dict
+    )
     exclusion: Exclusion = Exclusion()
     analyses: Annotated[tuple[Comparison, ...], Field(max_length=500)] = ()
     control_period_s: Annotated[float, Field(ge=0.02, le=0.5)] = 0.1
@@ -127,5 +132,6 @@ class StudyProtocol(FileModel):
             orders=self.orders,
             groups=self.groups,
             models=self.models,
+            demonstrators=self.demonstrators,
         )
         return self

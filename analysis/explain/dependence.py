@@ -29,7 +29,11 @@ MOST_STEPS = 200
 
 
 def dependence(
-    model: LADAssistant, looked: Looked, rng: np.random.Generator, repeats: int = REPEATS
+    model: LADAssistant,
+    looked: Looked,
+    rng: np.random.Generator,
+    repeats: int = REPEATS,
+    most: int = MOST_STEPS,
 ) -> pd.DataFrame:
     """Return how much answers change when one group of inputs is another step's.
 
@@ -42,11 +46,13 @@ def dependence(
     model
         Taught.
     looked
-        Steps to ask it about; at most 200 of them, evenly spread, are used.
+        Steps to ask it about.
     rng
         For the permutations.
     repeats
         Permutations of each group, 2 or more.
+    most
+        So many of the steps, evenly spread, are used.
 
     Returns
     -------
@@ -56,7 +62,7 @@ def dependence(
         permutations; ``lengthscales``, the spread of the inputs in units of the regressor's
         lengthscales: below 1 the kernel hardly tells them apart.
     """
-    chosen = np.linspace(0, len(looked.windows) - 1, min(MOST_STEPS, len(looked.windows)))
+    chosen = np.linspace(0, len(looked.windows) - 1, min(most, len(looked.windows)))
     windows = looked.windows[chosen.round().astype(int)]
     p, commands = answers(model, windows)
     rows = []

@@ -1,15 +1,17 @@
 """Write what one participant's model has learnt, in words, a figure and tables."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
+from analysis.explain.demonstrators import demonstrated, demonstrators_of
 from analysis.explain.dependence import dependence
 from analysis.explain.figure import dependence_figure
 from analysis.explain.moments import leaned_on, unsure_sections
+from analysis.explain.policies import asked_laps
 from analysis.explain.recorded import learnt_model, looked_at
 from analysis.figures.files import png, settle
 from protocols.files.errors import InputError
@@ -25,6 +27,7 @@ class Explained:
     dependence: pd.DataFrame
     sections: pd.DataFrame
     moments: pd.DataFrame
+    shown: pd.DataFrame = field(default_factory=pd.DataFrame)
 
 
 def explained(study: Study, participant: str) -> Explained:
@@ -36,19 +39,19 @@ def explained(study: Study, participant: str) -> Explained:
         When there is no such participant, no learnt model, or no lap after its first teaching.
     """
     model = learnt_model(study, participant)
-    laps = study.laps.to_pandas()
-    own = laps[laps["participant"] == participant].sort_values("lap")
-    first = own.loc[own["training"], "lap"].min()
-    asked = own.loc[(own["lap"] > first) & ~own["training"], "lap"].astype(int).tolist()
+    asked = asked_laps(study, participant)
     if not asked:
         raise InputError(f"{study.folder}: {participant} drove no lap after its model was taught")
     looked = looked_at(study, participant, asked, model.parameters.recursion_depth)
     rng = np.random.default_rng(np.random.SeedSequence([0, len(looked.windows)]))
+    who = demonstrators_of(study.protocol)
+    shown = demonstrated(study, (participant,)) if len(who) > 1 else pd.DataFrame()
     return Explained(
         participant,
         dependence(model, looked, rng),
         unsure_sections(model, looked),
         leaned_on(model, looked, study, participant),
+        shown,
     )
 
 
@@ -117,8 +120,26 @@ def page(found: Explained, picture: str) -> str:
                     for r in found.moments.to_dict("records")
                 ],
             ),
+            *_who_differs(found.shown),
         ]
     ) + "\n"  # fmt: skip
+
+
+def _who_differs(shown: pd.DataFrame) -> list[str]:
+    """Return how those who taught differ; nothing where one person did."""
+    if shown.empty:
+        return []
+    columns = ["share", "begins_m", "speed", "turn"]
+    means = shown.groupby(["section", "demonstrator"], sort=False)[columns].mean().reset_index()
+    head = ("section", "demonstrator", "share of steps", "begins at, m", "speed, m/s",
+            "turn rate, rad/s")  # fmt: skip
+    rows = [
+        (r["section"], r["demonstrator"], f"{r['share']:.0%}",
+         "–" if np.isnan(r["begins_m"]) else f"{r['begins_m']:.2f}",
+         f"{r['speed']:.2f}", f"{r['turn']:.2f}")
+        for r in means.to_dict("records")
+    ]  # fmt: skip
+    return ["## How those who taught it differ", _table(head, rows)]
 
 
 def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

@@ -15,6 +15,7 @@ from analysis.report.sections.measures import measure_section
 from analysis.report.sections.methods import methods_section
 from analysis.report.sections.model import model_section
 from analysis.report.sections.people import people_section
+from analysis.report.sections.policy import policy_section
 from analysis.report.sections.practice import practice_section
 from analysis.report.sections.registration import registration_section
 from analysis.report.sections.survey import survey_section
@@ -32,6 +33,7 @@ SECTIONS: tuple[Callable[[StudyResults], Section | None], ...] = (
     measure_section,
     survey_section,
     model_section,
+    policy_section,
     paper_section,
     methods_section,
     data_section,

@@ -11,6 +11,8 @@ from harness.cli.options import check_least, cores
 from protocols.files.errors import InputError
 
 if TYPE_CHECKING:
+    from analysis.report.blocks import Section
+    from analysis.reproduction.row import Row
     from analysis.reproduction.write import Further
     from harness.reproduction.studies import Experiment
     from protocols.course.schema import Course
@@ -27,6 +29,9 @@ def reproduce(
     ] = cores(),
     full: Annotated[
         bool, typer.Option("--full", help="Also robustness, baselines and other courses.")
+    ] = False,
+    why: Annotated[
+        bool, typer.Option("--why", help="Also declared explanations of what differs, run.")
     ] = False,
     course: Annotated[
         str | None,
@@ -45,10 +50,13 @@ def reproduce(
     check_least("--jobs", jobs, 1)
     if course is not None and not full:
         raise InputError("--course: given without --full; allowed: only with --full")
-    return _reproduce(out or Path("reproductions") / f"seed{seed}", seed, jobs, course, full=full)
+    folder = out or Path("reproductions") / f"seed{seed}"
+    return _reproduce(folder, seed, jobs, course, full=full, why=why)
 
 
-def _reproduce(folder: Path, seed: int, jobs: int, course: str | None, *, full: bool) -> int:
+def _reproduce(
+    folder: Path, seed: int, jobs: int, course: str | None, *, full: bool, why: bool
+) -> int:
     from harness.running.open_workers import warm_up_workers
 
     warm_up_workers()  # first: workers start while this process reads the protocols
@@ -58,7 +66,7 @@ def _reproduce(folder: Path, seed: int, jobs: int, course: str | None, *, full: 
 
     chosen = None if course is None else load_course(course)
     planned = experiments(folder, seed)
-    further = _further_experiments(folder, seed, chosen) if full else ()
+    further = _further_experiments(folder, seed, chosen, full=full, why=why)
     failures = run_experiments(folder, planned, jobs, counted_sessions)
     if further and not failures:
         failures = _run_further(further, jobs)
@@ -66,16 +74,18 @@ def _reproduce(folder: Path, seed: int, jobs: int, course: str | None, *, full: 
         complain(line)
     if failures:
         return 1
-    _write(folder, jobs, full=full)
+    _write(folder, jobs, full=full, why=why)
     return 0
 
 
 def _further_experiments(
-    folder: Path, seed: int, course: "Course | None"
+    folder: Path, seed: int, course: "Course | None", *, full: bool, why: bool
 ) -> "tuple[Experiment, ...]":
     from harness.reproduction.full import full_experiments
+    from harness.reproduction.why import why_experiments
 
-    return full_experiments(folder, seed, course)
+    explanations = why_experiments(folder, seed) if why else ()
+    return (*(full_experiments(folder, seed, course) if full else ()), *explanations)
 
 
 def _run_further(planned: "Sequence[Experiment]", jobs: int) -> tuple[str, ...]:
@@ -85,20 +95,25 @@ def _run_further(planned: "Sequence[Experiment]", jobs: int) -> tuple[str, ...]:
     return run_full(planned, jobs, counted_sessions, complain)
 
 
-def _write(folder: Path, jobs: int, *, full: bool) -> None:
+def _write(folder: Path, jobs: int, *, full: bool, why: bool) -> None:
     from analysis.reproduction.write import write_reproduction
     from harness.cli.reproduction_table import print_rows
 
     with progress_line() as tell:
-        further = _full_sections(jobs, tell) if full else None
+        further = _further_sections(jobs, tell, full=full, why=why) if full or why else None
         page, rows = write_reproduction(folder, jobs, tell, further)
     print_rows(rows)
     say(f"Page: {page}")
 
 
-def _full_sections(jobs: int, tell: "Callable[[str], None]") -> "Further":
-    from functools import partial
-
+def _further_sections(
+    jobs: int, tell: "Callable[[str], None]", *, full: bool, why: bool
+) -> "Further":
     from analysis.reproduction.full import full_sections
+    from analysis.reproduction.why import why_section, why_table
 
-    return partial(full_sections, jobs=jobs, say=tell)
+    def sections(folder: Path) -> "tuple[Sequence[Section], Sequence[Row]]":
+        added, rows = full_sections(folder, jobs, tell) if full else ((), ())
+        return (*added, *([why_section(why_table(folder))] if why else ())), rows
+
+    return sections

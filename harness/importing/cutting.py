@@ -22,6 +22,7 @@ from harness.importing.signals import (
 )
 from harness.session.lap import Ending, Step
 from harness.session.lap_log import LapLog, summary
+from harness.session.latent_teaching import teach_inferred
 from harness.session.limitation import limitation_of
 from harness.session.model import basis_vectors, make_model
 from harness.world.clearance import box_table, clearance
@@ -29,7 +30,7 @@ from harness.world.world import Observation
 from lad.assistant import NO_ASSISTANCE, Assistance, Assistant, Learner
 from lad.command import STILL, Command
 from lad.inputs import as_inputs
-from protocols.condition import Condition
+from protocols.condition import Condition, LatentHelp
 from protocols.course.centreline import Centreline
 from protocols.course.gates import GateCounter
 from protocols.course.obstacles import obstacle_boxes
@@ -133,6 +134,9 @@ class Cutting:
         ending, used = self._drive(condition, sampled, log, limit)
         self._check_gaps(begin, int(times[used]), where)
         table = log.table()
+        if condition.latent_h is not None and isinstance(self.model, Learner):
+            # The recorded command has its own error: none is added.
+            table = teach_inferred(self.model, table, LatentHelp(), np.random.default_rng(0))
         row = LapRow(
             participant=person.participant,
             lap=number,
@@ -226,8 +230,7 @@ class Cutting:
             step = self._step(condition, sampled, i, before, after)
             log.record(step)
             shown = step.demonstrator
-            learns = condition.training and shown is not None
-            if learns and shown is not None and isinstance(self.model, Learner):
+            if shown is not None and isinstance(self.model, Learner) and _taught(condition, shown):
                 self.model.learn(shown.helping, shown.command)
             crossed = gates.advance(before.pose, after.pose)
             if crossed is not None and gates.finished:
@@ -305,3 +308,10 @@ class Cutting:
 
 def _command(row: NDArray[np.float64]) -> Command:
     return Command(float(row[0]), float(row[1]))
+
+
+def _taught(condition: Condition, shown: Assistance) -> bool:
+    """Say whether a step is learnt as it comes: of a lap of corrections, where help was given."""
+    if not condition.training or condition.latent_h is not None:
+        return False
+    return condition.corrections is None or shown.helping

@@ -177,7 +177,7 @@ def _places(role: Role, part: Any, setting: Setting) -> tuple[SightKeeper, LapPa
     driver = make_driver("autonomous", driver_setup({}, setting))
     if role is DEMONSTRATOR:
         keeper = SightKeeper()
-        return keeper, LapParts(driver, part, keeper)
+        return keeper, LapParts(driver, part, keeper, onlookers=(keeper,))
     keeper = SightKeeper(make_demonstrator("attentive", demonstrator_setup({}, setting)))
     if role is ASSISTANT:
         return keeper, LapParts(driver, keeper, part)

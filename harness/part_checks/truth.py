@@ -29,7 +29,7 @@ def sees_no_more(role: Role, part: Any, evidence: Evidence) -> CheckResult:
     """Compare a part in a lap with one that is shown a recording of it."""
     allowed = f"answers follow from {_SHOWN[role.name]}, what came before, and the seed"
     if role is ASSISTANT and callable(getattr(part, "look", None)):
-        fault = "it has a method look, by which it would be shown the room"
+        fault = "it has a method look; a lap shows the room to a demonstrator, and never calls it"
         return CheckResult(NAME, "failed", fault, allowed)
     driven, repeated = evidence.driven, evidence.repeated
     alone = evidence.first.fault or repeated.fault

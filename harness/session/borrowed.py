@@ -16,6 +16,7 @@ from lad.command import Command
 from lad.errors import ModelFileError
 from lad.inputs import INPUT_NAMES
 from lad.lad_assistant import LADAssistant
+from lad.trained import from_bytes
 from protocols.files.errors import InputError
 from protocols.model_choice import BorrowedModel
 from protocols.orders import Orders
@@ -93,7 +94,7 @@ def model_file(source: BorrowedModel, folder: Path | None, number: int) -> bytes
 
 def _restored(data: bytes, name: str) -> Assistant:
     try:
-        return LADAssistant.from_bytes(data, f"model {name!r}")
+        return from_bytes(data, f"model {name!r}")
     except ModelFileError as error:
         raise InputError(str(error)) from None
 
@@ -132,20 +133,25 @@ def _pooled(run: StudyRun, source: BorrowedModel) -> bytes:
     taught = laps[[c in conditions and conditions[c].training for c in laps["condition"]]]
     if taught.empty:
         raise InputError(f"{folder}: no training lap in it to teach a pooled model")
-    for participant, lap in zip(taught["participant"], taught["lap"], strict=True):
-        _teach(model, study, participant, int(lap))
+    for lap in taught.to_dict("records"):
+        corrected = conditions[lap["condition"]].corrections is not None
+        _teach(model, study, lap["participant"], int(lap["lap"]), corrected=corrected)
     return model.to_bytes()
 
 
-def _teach(model: LADAssistant, study: Study, participant: str, lap: int) -> None:
+def _teach(
+    model: LADAssistant, study: Study, participant: str, lap: int, *, corrected: bool
+) -> None:
+    """Teach a recorded lap; of one of corrections the steps in which the demonstrator drove."""
     columns = [*INPUT_NAMES, "h", "a_v", "a_w"]
     steps = study.steps(participant, lap, columns).to_pandas().astype("float64")
     inputs = np.ascontiguousarray(steps[list(INPUT_NAMES)].to_numpy())
-    if np.isnan(inputs).any() or steps["h"].isna().any():
+    if np.isnan(inputs).any() or (steps["h"].isna().any() and not corrected):
         raise InputError(
             f"{study.folder}: {participant}, lap {lap}: inputs or h were not recorded in each step"
         )
     model.start_lap()
     for x, h, v, w in zip(inputs, steps["h"], steps["a_v"], steps["a_w"], strict=True):
         model.assist(x)
-        model.learn(h > 0, Command(v, w) if h > 0 else None)
+        if not np.isnan(h):
+            model.learn(h > 0, Command(v, w) if h > 0 else None)

@@ -1,6 +1,6 @@
 """One lap: the order in which things happen in a control step, and when a lap ends."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, NamedTuple, Protocol
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from harness.session.arbitration import Arbitration
 from harness.session.clock import Clock, LapStoppedError, Timing
+from harness.session.intervention import Intervention
 from harness.session.journal import Journal
 from harness.session.limitation import Limitation
 from harness.world.world import Observation, World
@@ -19,7 +20,7 @@ from lad.inputs import as_inputs
 from participants.driver import Driver, WithdrewError
 from participants.sight import Onlooker, Sight
 from participants.telemetry import telemetry_of
-from protocols.condition import AssistantRole
+from protocols.condition import AssistantRole, Corrections
 from protocols.course.gates import GateCounter
 from protocols.record.rows import EndReason
 
@@ -38,12 +39,16 @@ class LapParts:
     demonstrator
         Helps, or as a shadow gives a command that does not count; None for a study without one.
     model
-        Predicts in every step, and helps in conditions with the model as assistant.
+        Predicts in every step, and helps in conditions with the model as assistant. It is never
+        shown the room, whatever methods it has.
+    onlookers
+        Others who are shown the room, in the same step and before anybody answers.
     """
 
     driver: Driver
     demonstrator: Assistant | None
     model: Assistant
+    onlookers: tuple[Onlooker, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +72,9 @@ class Rules:
     hold_s
         How long a driver's last command stays in force without a new one; then the chair is told
         to stop.
+    corrections
+        When the demonstrator takes over from the model that helps; the model then learns those
+        steps and no others. None for a demonstrator who only watches.
     """
 
     limitation: Limitation
@@ -76,6 +84,7 @@ class Rules:
     training: bool
     time_limit_s: float
     hold_s: float = HOLD_S
+    corrections: Corrections | None = None
 
 
 class Step(NamedTuple):
@@ -173,7 +182,10 @@ class Lap:
         self._intent_t = self._seen.t
         self._helper: AssistantRole = "none"
         # Checked once: a protocol's isinstance costs more than a model's prediction.
-        self._onlookers = list(_onlookers(parts))
+        helper: object = parts.demonstrator
+        shown = (helper,) if isinstance(helper, Onlooker) else ()
+        self._onlookers: tuple[Onlooker, ...] = (*shown, *parts.onlookers)
+        self._intervention = None if rules.corrections is None else Intervention(rules.corrections)
         learns = rules.training and isinstance(parts.model, Learner)
         self._links = [link for part in _both(parts) if (link := telemetry_of(part)) is not None]
         self._learner: Learner | None = parts.model if learns else None  # type: ignore[assignment]
@@ -185,8 +197,7 @@ class Lap:
             try:
                 step = self._step(timing)
                 recorder.record(step)
-                if self._learner is not None and step.demonstrator is not None:
-                    self._learner.learn(step.demonstrator.helping, step.demonstrator.command)
+                self._teach(step)
                 crossed = self._gates.advance(step.seen.pose, step.result.pose)
                 if crossed is not None and self._gates.finished:
                     return self._ending("finished", step.seen.t + crossed * self._world.period)
@@ -196,6 +207,13 @@ class Lap:
             except LapStoppedError as stop:
                 return self._broken_off(stop.reason, stop.note)
         return self._ending("time_limit", self._seen.t)
+
+    def _teach(self, step: Step) -> None:
+        """Let the model learn the step, where it is to: while it helps, only what corrects it."""
+        if self._learner is None or step.demonstrator is None:
+            return
+        if self._intervention is None or step.control == "demonstrator":
+            self._learner.learn(step.demonstrator.helping, step.demonstrator.command)
 
     def _step(self, timing: Timing | None) -> Step:
         """Observe, drive, limit, assist, arbitrate, safeguard, move; only here is their order.
@@ -208,32 +226,35 @@ class Lap:
         intent, age = self._command_in_force(answer, seen.t)
         limited = rules.limitation(intent)
         x = as_inputs(limited, seen.velocity, seen.segments)
-        for onlooker in self._onlookers:  # only a demonstrator sees the room
+        for onlooker in self._onlookers:  # the model sees its 19 inputs and nothing else
             onlooker.look(sight)
         demonstrator = None if parts.demonstrator is None else parts.demonstrator.assist(x)
         model = parts.model.assist(x)
-        assistance = self._in_charge(demonstrator, model)
+        role = self._in_charge(demonstrator, model, limited, seen.t)
+        answers = {"model": model, "demonstrator": demonstrator}
+        assistance = answers.get(role) or NO_ASSISTANCE
         arbitrated = rules.arbitration(limited, assistance)
         executed = self._world.safeguard(arbitrated) if rules.safeguarded else arbitrated
         telemetry = {name: value for link in self._links for name, value in link().items()}
         if self._journal is not None:
             self._journal.tick(answer, demonstrator, timing, telemetry)
         self._world.step(executed)
-        self._helper = rules.assistant if assistance.helping else "none"
+        self._helper = role if assistance.helping else "none"
         self._seen = self._world.observe()
-        control = rules.assistant if assistance.helping else "driver"
+        control = role if assistance.helping else "driver"
         return Step(
             seen, x, intent, demonstrator, model, control, arbitrated, executed, self._seen,
             age, timing, telemetry,
         )  # fmt: skip
 
-    def _in_charge(self, demonstrator: Assistance | None, model: Assistance) -> Assistance:
-        """Return the answer that counts in this lap."""
-        if self._rules.assistant == "model":
-            return model
-        if self._rules.assistant == "demonstrator" and demonstrator is not None:
-            return demonstrator
-        return NO_ASSISTANCE
+    def _in_charge(
+        self, demonstrator: Assistance | None, model: Assistance, user: Command, t: float
+    ) -> AssistantRole:
+        """Return whose answer counts in this step."""
+        if self._intervention is None or demonstrator is None:
+            return self._rules.assistant
+        intervenes = self._intervention.needed(demonstrator, model, user, t)
+        return "demonstrator" if intervenes else self._rules.assistant
 
     def _command_in_force(self, answer: Command | None, t: float) -> tuple[Command, float]:
         """Return the command in force and its age: without new commands the chair soon stops."""
@@ -269,10 +290,3 @@ class Lap:
 
 def _both(parts: LapParts) -> tuple[object, ...]:
     return (parts.driver, parts.demonstrator)
-
-
-def _onlookers(parts: LapParts) -> Iterator[Onlooker]:
-    assistants: tuple[object, ...] = (parts.demonstrator, parts.model)
-    for assistant in assistants:
-        if isinstance(assistant, Onlooker):
-            yield assistant

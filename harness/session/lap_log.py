@@ -43,6 +43,7 @@ class LapLog:
         result, timing = step.result.pose, step.timing
         h, (v, w) = _demonstration(step.demonstrator)
         model = step.model
+        drives = self._demonstrated or step.control == "demonstrator"
         mean_v, mean_w = model.mean or NOTHING
         self._near, offset = self._centreline.locate(pose.x, pose.y, self._near)
         section = self._centreline.section(self._near)
@@ -52,9 +53,9 @@ class LapLog:
             t_s=seen.t,
             intent_v=step.intent.v,
             intent_w=step.intent.w,
-            h=h if self._demonstrated else None,
-            a_v=v if self._demonstrated else None,
-            a_w=w if self._demonstrated else None,
+            h=h if drives else None,
+            a_v=v if drives else None,
+            a_w=w if drives else None,
             h_would=h,
             would_v=v,
             would_w=w,

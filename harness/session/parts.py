@@ -23,7 +23,7 @@ from participants.registry import make_demonstrator, make_driver, make_impaired,
 from participants.setup import DemonstratorSetup, DriverSetup, ImpairmentSetup, RespondentSetup
 from participants.sight import Sight
 from participants.survey import Question, Respondent
-from protocols.cohort import ImpairmentChoice
+from protocols.cohort import DemonstratorChoice, ImpairmentChoice
 from protocols.files.errors import InputError
 from protocols.groups import Group
 from protocols.instrument import Instrument, Item
@@ -48,6 +48,8 @@ class SessionParts:
         Reads the pages beside laps and questionnaires.
     models
         Models that others have taught, by the protocol's names for them.
+    demonstrators
+        Further demonstrators, by the protocol's names for them.
     """
 
     person: Person
@@ -55,6 +57,7 @@ class SessionParts:
     respondent: Respondent | None
     reader: PageReader
     models: Mapping[str, Assistant] = field(default_factory=dict)
+    demonstrators: Mapping[str, Demonstrator] = field(default_factory=dict)
 
 
 def make_every_part(run: StudyRun, *, only_shipped: bool = False) -> None:
@@ -91,6 +94,7 @@ def make_every_part(run: StudyRun, *, only_shipped: bool = False) -> None:
     if cohort.demonstrator is not None and wanted("demonstrator", cohort.demonstrator.use):
         with _placed(run, "cohort.demonstrator.options"):
             _demonstrator(run, 1)
+    _make_further_demonstrators(run, wanted)
     if wanted("model", protocol.model.use):
         with _placed(run, "model"):
             session_model(run, 1)
@@ -99,6 +103,14 @@ def make_every_part(run: StudyRun, *, only_shipped: bool = False) -> None:
             _respondent(run, 1, person)
     for name, group in protocol.groups.items():
         _make_parts_of_group(run, name, group, wanted)
+
+
+def _make_further_demonstrators(run: StudyRun, wanted: Callable[[Role, str], bool]) -> None:
+    """Make the demonstrators beside the cohort's."""
+    for name, choice in run.study.protocol.demonstrators.items():
+        if wanted("demonstrator", choice.use):
+            with _placed(run, f"demonstrators.{name}.options"):
+                _chosen_demonstrator(run, 1, choice, f"demonstrator {name}")
 
 
 def _make_parts_of_group(
@@ -194,6 +206,10 @@ def make_parts(
         reader=SimulatedReader(whose.particulars())
         if seats.participant is None
         else LiveReader(seats.participant),
+        demonstrators={
+            name: _chosen_demonstrator(run, number, choice, f"demonstrator {name}")
+            for name, choice in run.study.protocol.demonstrators.items()
+        },
     )
 
 
@@ -224,9 +240,18 @@ def _impaired(run: StudyRun, number: int, impairment: ImpairmentChoice, driver: 
 
 def _demonstrator(run: StudyRun, number: int, seat: Seat | None = None) -> Demonstrator | None:
     choice = run.study.protocol.cohort.demonstrator
-    if choice is None:
-        return None
-    rng = generator(run.seed, number, "demonstrator")
+    return None if choice is None else _chosen_demonstrator(run, number, choice, seat=seat)
+
+
+def _chosen_demonstrator(
+    run: StudyRun,
+    number: int,
+    choice: DemonstratorChoice,
+    drawn_as: str = "demonstrator",
+    seat: Seat | None = None,
+) -> Demonstrator:
+    """Return one demonstrator, with random numbers of the name ``drawn_as``."""
+    rng = generator(run.seed, number, drawn_as)
     setup = DemonstratorSetup(run.study.course, rng, choice.options, seat)
     return make_demonstrator(choice.use, setup, run.study.code)
 

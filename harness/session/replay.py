@@ -96,6 +96,9 @@ def parts_to_replay(entries: "Entries", run: StudyRun, number: int, kind: str) -
         lap=LapParts(ReplayedDriver(entries, kind, None), demonstrator, session_model(run, number)),
         respondent=None if cohort.respondent is None else ReplayedRespondent(entries, None),
         reader=ReplayedReader(entries, None),
+        demonstrators={
+            name: ReplayedDemonstrator(entries, None) for name in run.study.protocol.demonstrators
+        },
     )
 
 

@@ -9,6 +9,7 @@ from harness.session.experience import experience_of
 from harness.session.journal import Journal
 from harness.session.lap import Ending, Lap, LapParts, Recorder, Rules, Step
 from harness.session.lap_log import LapLog, summary
+from harness.session.latent_teaching import teach_inferred
 from harness.session.limitation import limitation_of
 from harness.session.model import basis_vectors, saved, tuned_fields
 from harness.session.parts import SessionParts, question
@@ -187,7 +188,7 @@ class Session:
         seed, number = self._run.seed, self._number
         protocol = self._run.study.protocol
         condition = protocol.conditions[planned.condition]
-        parts = self._parts_with(condition.model)
+        parts = self._parts_with(condition)
         self._world.reset(generator(seed, number, f"lap {lap}/world"))
         parts.driver.start_lap(lap, generator(seed, number, f"lap {lap}/driver"))
         if parts.demonstrator is not None:
@@ -199,6 +200,9 @@ class Session:
         recorder = log if self._watch is None else _Both(log, self._watch)
         ending = Lap(self._world, parts, rules, gates, self._journal).drive(recorder, self._clock)
         steps = log.table()
+        if condition.latent_h is not None and isinstance(parts.model, Learner):
+            rng = generator(seed, number, f"lap {lap}/latent")
+            steps = teach_inferred(parts.model, steps, condition.latent_h, rng)
         row = LapRow(
             participant=participant_id(number),
             lap=lap,
@@ -222,10 +226,14 @@ class Session:
         """How many laps to analyse are on record; one that was driven again counts twice."""
         return sum(not recorded.row.practice for recorded in self._laps)
 
-    def _parts_with(self, model: str) -> LapParts:
-        """Return what takes part in a lap, with the participant's own or a borrowed model."""
-        own = self._parts.lap
-        return own if model == "own" else replace(own, model=self._parts.models[model])
+    def _parts_with(self, condition: Condition) -> LapParts:
+        """Return what takes part in a lap, with the model and the demonstrator of its condition."""
+        lap, model, demonstrator = self._parts.lap, condition.model, condition.demonstrator
+        if model != "own":
+            lap = replace(lap, model=self._parts.models[model])
+        if demonstrator != "own":
+            lap = replace(lap, demonstrator=self._parts.demonstrators[demonstrator])
+        return lap
 
     def _ask(self, questions: Sequence[tuple[Instrument, Item]], lap: int, condition: str) -> None:
         """Ask what is asked about a lap, or after the last one about all of them."""
@@ -294,7 +302,8 @@ def rules_of(condition: Condition, time_limit_s: float, hold_s: float, period_s:
         assistant=condition.assistant,
         arbitration=ARBITRATIONS[condition.arbitration],
         safeguarded=condition.safeguard,
-        training=condition.training,
+        training=condition.training and condition.latent_h is None,
         time_limit_s=time_limit_s,
         hold_s=hold_s,
+        corrections=condition.corrections,
     )

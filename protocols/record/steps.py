@@ -52,8 +52,8 @@ STEP_COLUMNS: tuple[Column, ...] = (
     *_INPUTS,
     Column("intent_v", _F, "Driver's command before the limitation", "m/s"),
     Column("intent_w", _F, "Driver's command before the limitation", "rad/s"),
-    Column("h", pa.int8(), "Demonstrator's takeover signal; missing in laps it does not drive",
-           "", "-1, +1", nullable=True),
+    Column("h", pa.int8(), "Demonstrator's takeover signal; missing in laps it does not drive, and "
+           "where it lets the model that it corrects drive", "", "-1, +1", nullable=True),
     Column("a_v", _F, "Demonstrator's command; missing where h is not +1", "m/s", nullable=True),
     Column("a_w", _F, "Demonstrator's command; missing where h is not +1", "rad/s", nullable=True),
     Column("h_would", pa.int8(), "What the demonstrator does or, as a shadow, would do", "",
@@ -101,6 +101,8 @@ STEP_COLUMNS: tuple[Column, ...] = (
            since=2),
     Column("result_heading_rad", _F, "Ground-truth heading at the end of the step", "rad",
            nullable=True, since=2),
+    Column("h_inferred", _F, "p(h = +1) as inferred after the lap by a model that is not shown h; "
+           "missing where it is shown", "", "0 to 1", nullable=True, since=2),
 )  # fmt: skip
 
 STEP_SCHEMA = arrow_schema(STEP_COLUMNS)

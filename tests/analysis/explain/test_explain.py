@@ -55,11 +55,12 @@ def table(own):
 def study(seen):
     """Return a stand-in for a recorded study."""
     laps = [
-        {"participant": "P0001", "lap": i, "steps": STEPS, "training": True}
+        {"participant": "P0001", "lap": i, "condition": "shown", "steps": STEPS, "training": True}
         for i in range(len(seen))
     ]
     return SimpleNamespace(
         folder="here",
+        protocol=SimpleNamespace(conditions={}),
         laps=pa.Table.from_pandas(pd.DataFrame(laps)),
         steps=lambda _, lap, columns=None: pa.Table.from_pandas(
             table(seen[lap])[columns] if columns else table(seen[lap])

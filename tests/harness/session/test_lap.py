@@ -1,5 +1,7 @@
 """A lap: the order of a step, who is heard, and how it ends."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -284,3 +286,23 @@ def test_what_people_give_is_noted_before_it_acts(stage):
     ]
     assert len(notes) == len(keeper.steps) == 10
     assert all(diary[i + 1] == "step" for i in notes)
+
+
+class Peeping(Pupil):
+    """A model with a method by which it would see the room."""
+
+    def look(self, sight):
+        self.diary.append("the model looks")
+
+
+def test_a_model_with_a_method_look_is_not_shown_the_room(stage):
+    """Only the demonstrator is; and whoever the lap was explicitly given as an onlooker."""
+    lap, parts, _, diary = stage()
+    for onlookers, shown in (((), False), (None, True)):
+        model = Peeping("model", diary, lambda _: NO_ASSISTANCE)
+        there = (model,) if onlookers is None else onlookers
+        again = Lap(
+            lap._world, replace(parts, model=model, onlookers=there), lap._rules, lap._gates
+        )
+        again._step(None)
+        assert ("the model looks" in diary) is shown
