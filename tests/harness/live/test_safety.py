@@ -35,6 +35,8 @@ def received(browser, kind, seconds=20):
         message = json.loads(browser.recv(timeout=seconds))
         if message["type"] == kind:
             return message
+        if message["type"] == "ping":
+            browser.send(json.dumps({"type": "pong", "id": message["id"]}))
     return pytest.fail(f"no {kind}")
 
 
@@ -263,9 +265,9 @@ def sent_to(served, person, contents):
 
 @pytest.mark.slow
 def test_ten_thousand_malformed_messages_leave_the_session_alive(served):
-    """Through real sockets: each ends its connection at most, and the session goes on."""
+    """Through real sockets: what follows the first senseless one is not read; others come back."""
     person = received(served.open("participant"), "welcome")["person"]
-    assert sent_to(served, person, malformed(10_000)) > 1000
+    assert sent_to(served, person, malformed(10_000)) > 50
     browser = served.open("participant", person=person)
     page = received(browser, "page")
     assert list(served.study.visits) == ["P0001"]
