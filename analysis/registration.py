@@ -9,7 +9,7 @@ from analysis.frames import StudyFrames, as_frame
 from analysis.versions import recording_versions
 from protocols.files.errors import InputError
 from protocols.order import group_of, in_words, laps_of
-from protocols.record.rows import participant_number
+from protocols.record.enrolment import enrolled, slot_of
 from protocols.registration import REGISTRATION, Registration, plan_differences, read_registration
 
 
@@ -95,6 +95,9 @@ def _plan(frames: StudyFrames, registration: Registration) -> Row:
 
 def _sample(frames: StudyFrames, registration: Registration) -> Row:
     recorded = len(frames.everybody)
+    if frames.study.header.origin == "live":  # people who left were replaced
+        people = enrolled(frames.study.folder, map(str, frames.everybody))
+        recorded = sum(person.state == "usable" for person in people)
     wanted = registration.participants
     return _row("participants", str(wanted), str(recorded), kept=recorded == wanted)
 
@@ -107,8 +110,8 @@ def _allocation(frames: StudyFrames) -> Row:
     for who, order, group in zip(
         people["participant"], people["order"], people["group"], strict=True
     ):
-        number = participant_number(who)
-        given = in_words(laps_of(protocol, number, seed)), group_of(protocol, number, seed)
+        slot = slot_of(frames.study.folder, str(who))
+        given = in_words(laps_of(protocol, slot, seed)), group_of(protocol, slot, seed)
         if (order, None if pd.isna(group) else group) != given:
             wrong.append(str(who))
     done = f"{len(wrong)} otherwise ({', '.join(wrong[:5])})" if wrong else "the same"

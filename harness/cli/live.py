@@ -34,6 +34,10 @@ def live(
     links: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Write the links as JSON.")
     ] = None,
+    registration: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Follow this registration; another plan is refused."),
+    ] = None,
     trust: Annotated[
         bool, typer.Option("--trust", help="Allow the code beside the protocol file, as it is now.")
     ] = False,
@@ -59,9 +63,17 @@ def live(
 
     study = resolve_study(protocol, participants=participants)
     study = trusted_study(study, asked=trust)
+    plan = None
+    if registration is not None:
+        from protocols.registration import read_registration, registered
+
+        plan = read_registration(registration)
+        study = registered(study, plan)
     folder = out or Path("studies") / f"{study.protocol.name}-live"
     address = Address(port=port, lan=lan, public_origin=public_origin)
-    finished = serve_study(StudyRun(study, seed), folder, address, say, seats=seats, links=links)
+    finished = serve_study(
+        StudyRun(study, seed), folder, address, say, seats=seats, links=links, plan=plan
+    )
     if finished and not no_report:
         from analysis.report import write_report
 

@@ -59,6 +59,7 @@ class Mailbox:
         self._pages = 0
         self._entered: Mapping[str, Answer] | None = None
         self._withdrawal: str | None = None
+        self._heard = time.monotonic()
         self.beside: dict[str, Any] = {}
         self._ended: LapStoppedError | None = None
 
@@ -67,11 +68,35 @@ class Mailbox:
     def show(self, picture: Mapping[str, Any]) -> None:
         """Show what there is to see now; an older picture that was not sent yet is replaced."""
         with self._changed:
-            self._shown += 1
-            self._picture = {"type": "picture", "n": self._shown, **picture, **self.beside}
-            link = self._link
+            link = self._put(picture)
         if link is not None:
             link.wake()
+
+    def show_ahead(self, changes: Mapping[str, Any]) -> None:
+        """Show where the step that begins will lead: the browser draws the way there meanwhile.
+
+        Without it a key would be seen a whole step later.
+
+        Parameters
+        ----------
+        changes
+            What is different from the picture that is shown.
+        """
+        with self._changed:
+            if self._lockstep or self._picture is None:
+                return
+            link = self._put({**self._picture, **changes})
+        if link is not None:
+            link.wake()
+
+    def _put(self, picture: Mapping[str, Any]) -> _Link | None:
+        """Replace the picture, and return who has to be told; nobody if it is shown already."""
+        new = {**picture, "type": "picture", **self.beside}
+        if not self._lockstep and self._picture == {**new, "n": self._shown}:
+            return None
+        self._shown += 1
+        self._picture = {**new, "n": self._shown}
+        return self._link
 
     def latest(self) -> Input | None:
         """Return the newest input with its age now; None before the first of this connection."""
@@ -151,6 +176,11 @@ class Mailbox:
         link = self._link
         return None if link is None else link.round_trip_s
 
+    @property
+    def silent_s(self) -> float:
+        """How long ago the last message from this seat's browser was received, s."""
+        return time.monotonic() - self._heard
+
     def connect(self, wake: Callable[[], None]) -> int:
         """Give the seat to a new connection, and return its number; the newest has the seat.
 
@@ -161,6 +191,7 @@ class Mailbox:
         """
         with self._changed:
             self._links += 1
+            self._heard = time.monotonic()
             before, self._link = self._link, _Link(self._links, wake)
             self._input = None  # an earlier connection's stick is nobody's now
             number = self._links
@@ -186,6 +217,7 @@ class Mailbox:
         """Take a stick's position; one that is older than the last is dropped."""
         received = time.monotonic()
         with self._changed:
+            self._heard = received
             if self._link is None or (self._input and stick.n <= self._input.sequence):
                 return
             sent = stick.sent / 1000.0
@@ -233,6 +265,7 @@ class Mailbox:
     def pong(self, number: int) -> None:
         """Take a ping's answer."""
         with self._changed:
+            self._heard = time.monotonic()
             if self._link is not None and number in self._link.pings:
                 self._link.round_trip_s = time.monotonic() - self._link.pings.pop(number)
 

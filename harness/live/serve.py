@@ -12,6 +12,7 @@ from urllib.parse import urlsplit
 import segno
 import uvicorn
 
+from harness.live.messages import MOST_BYTES
 from harness.live.server import make_app
 from harness.live.study import LiveStudy
 from harness.live.tokens import LETTERS, Role
@@ -19,6 +20,7 @@ from harness.session.study_run import StudyRun
 from protocols.files.errors import InputError
 from protocols.record.atomic import write_whole
 from protocols.record.store import locked
+from protocols.registration import Registration, copy_registration
 
 LOOK_S = 0.5
 """How often it is looked whether the study is over, s."""
@@ -51,8 +53,22 @@ def serve_study(
     *,
     seats: int = 1,
     links: Path | None = None,
+    plan: Registration | None = None,
 ) -> int:
     """Serve a study, and return how many of its sessions are finished.
+
+    Parameters
+    ----------
+    run, folder, address
+        What is served, where it is kept, and to whom.
+    say
+        Told the links, line by line.
+    seats
+        Sessions at a time.
+    links
+        A file that gets the links as JSON.
+    plan
+        The registration that the study follows; it is copied into the folder.
 
     Raises
     ------
@@ -70,6 +86,8 @@ def serve_study(
             hosts.append(urlsplit(public).netloc)
             origins.insert(0, public)
         study = LiveStudy(run, folder, seats)
+        if plan is not None:
+            copy_registration(plan, folder)
         named = _links(study, origins[0])
         if links is not None:
             write_whole(links, (json.dumps(named, indent=1) + "\n").encode())
@@ -80,13 +98,19 @@ def serve_study(
         if address.lan and public is None:
             say("Over plain http a browser gives pages of other machines no gamepad; keyboard and "
                 "touch work.")  # fmt: skip
-        app = make_app(study, frozenset(hosts), frozenset(origins))
-        config = uvicorn.Config(
-            app, log_level="warning", access_log=False, ws_max_size=16_384, ws="websockets",
-            server_header=False, date_header=False, lifespan="off",
-        )  # fmt: skip
-        asyncio.run(_serve(uvicorn.Server(config), listener, study))
+        server = web_server(study, frozenset(hosts), frozenset(origins))
+        asyncio.run(_serve(server, listener, study))
         return len(study.progress().finished)
+
+
+def web_server(study: LiveStudy, hosts: frozenset[str], origins: frozenset[str]) -> uvicorn.Server:
+    """Return the server of a live study; parameters are those of ``make_app``."""
+    config = uvicorn.Config(
+        make_app(study, hosts, origins), log_level="warning", access_log=False,
+        ws_max_size=MOST_BYTES, ws="websockets-sansio", server_header=False, date_header=False,
+        lifespan="off",
+    )  # fmt: skip
+    return uvicorn.Server(config)
 
 
 async def _serve(server: uvicorn.Server, listener: socket.socket, study: LiveStudy) -> None:
@@ -94,7 +118,7 @@ async def _serve(server: uvicorn.Server, listener: socket.socket, study: LiveStu
     study.without_participants()
     serving = asyncio.create_task(server.serve(sockets=[listener]))
     try:
-        while not _over(study):
+        while not study.over:
             done, _ = await asyncio.wait([serving], timeout=LOOK_S)
             if done:
                 break
@@ -104,12 +128,6 @@ async def _serve(server: uvicorn.Server, listener: socket.socket, study: LiveStu
         server.should_exit = True
         with contextlib.suppress(asyncio.CancelledError):
             await serving
-
-
-def _over(study: LiveStudy) -> bool:
-    progress = study.progress()
-    purged = len(list((study.folder / "withdrawn").glob("*.json")))
-    return not progress.active and len(progress.finished) + purged >= progress.planned
 
 
 def _links(study: LiveStudy, origin: str) -> dict[Role, str]:
@@ -143,6 +161,7 @@ def _listening(address: Address):  # type: ignore[no-untyped-def]  # noqa: ANN20
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listener.bind(("0.0.0.0" if address.lan else "127.0.0.1", address.port))  # noqa: S104
+        listener.listen()  # before any link is printed: a browser that is quick only waits
     except (OSError, OverflowError) as error:
         listener.close()
         reason = getattr(error, "strerror", None) or str(error)

@@ -39,7 +39,11 @@ RATE, BURST = 120.0, 240
 HELLO_S, PING_S, CONSOLE_S = 10.0, 1.0, 0.2
 """How long a first message may take, how often round trips are measured and consoles fed, s."""
 
-REPLACED, FLOODED = 4001, 4008
+SILENT_S, TURN_S = 2.5, 0.25
+"""A browser that does not even answer pings for so long is lost, though its socket is open; and
+how often that is looked at, s. Time in which this process did not run is not counted."""
+
+REPLACED, FLOODED, SILENT = 4001, 4008, 4009
 """Reasons for which a socket is closed; the pages know them."""
 
 
@@ -239,11 +243,20 @@ class _Server:
 
         number = seat.connect(wake)
         page = picture = pings = 0
-        pinged = loop.time()
+        pinged = looked = loop.time()
+        silent = 0.0
         try:
             while not gone.is_set() and wanted():
                 if not seat.has_seat(number):
                     await _close(socket, REPLACED)
+                    gone.set()
+                    return
+                now = loop.time()
+                silent = min(silent + min(now - looked, 2 * TURN_S), seat.silent_s)
+                looked = now
+                if silent > SILENT_S:
+                    seat.disconnect(number)  # first: closing waits for the other side
+                    await _close(socket, SILENT)
                     gone.set()
                     return
                 fresh, page, picture = seat.to_send(page, picture)
@@ -252,7 +265,7 @@ class _Server:
                 if loop.time() - pinged > PING_S:
                     pinged, pings = loop.time(), pings + 1
                     await socket.send_text(json.dumps(seat.ping(pings)))
-                await _either(news, 0.25)
+                await _either(news, TURN_S)
                 news.clear()
         finally:
             seat.disconnect(number)

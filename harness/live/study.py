@@ -1,5 +1,6 @@
 """A live study: who takes part next, which sessions are under way, and what is kept of them."""
 
+import itertools
 import json
 import os
 import secrets
@@ -17,11 +18,20 @@ from harness.live.visit import Visit, visitors_of
 from harness.running.sessions import world_of
 from harness.session.study_run import StudyRun, portable
 from harness.world.world import World
+from protocols.allocation import Enrolled, State, next_allocation
 from protocols.files.errors import InputError
+from protocols.order import group_of, in_words, laps_of
 from protocols.record.atomic import write_whole
+from protocols.record.enrolment import (
+    WITHDRAWN,
+    enrolled,
+    read_allocations,
+    state_of,
+    write_allocations,
+)
 from protocols.record.header import StudyHeader
 from protocols.record.journal import JOURNALS, journal_path
-from protocols.record.rows import participant_id
+from protocols.record.rows import participant_id, participant_number
 from protocols.record.session import SessionRecord, encode
 from protocols.record.sessions import SESSIONS
 from protocols.record.store import (
@@ -32,9 +42,6 @@ from protocols.record.store import (
     write_session,
 )
 
-WITHDRAWN = "withdrawn"
-"""Folder of a study directory with a file for each participant whose data were purged."""
-
 
 @dataclass(frozen=True, slots=True)
 class Progress:
@@ -43,16 +50,21 @@ class Progress:
     Attributes
     ----------
     planned
-        Participants wanted.
-    finished
-        Participants whose session is whole.
+        Participants wanted whose sessions can be used.
+    people
+        Everyone enrolled so far, and what became of them.
     active
-        Participants whose session is under way.
+        Participants whose session is under way in this process.
     """
 
     planned: int
-    finished: tuple[str, ...]
+    people: tuple[Enrolled, ...]
     active: tuple[str, ...]
+
+    @property
+    def finished(self) -> tuple[str, ...]:
+        """Participants whose session can be used."""
+        return tuple(person.participant for person in self.people if person.state == "usable")
 
 
 class LiveStudy:
@@ -89,8 +101,12 @@ class LiveStudy:
         self.private = private_folder(folder)
         self.tokens = Tokens(_secret(self.private))
         self._lockstep, self._on_change = lockstep, on_change
-        self._lock = threading.Lock()
+        self._lock = threading.RLock()
         self.visits: dict[str, Visit] = {}
+        begun = [path.stem for path in (folder / JOURNALS).glob("*.jsonl")]
+        whole = whole_sessions(folder, header.digest)
+        self._people = {e.participant: e for e in enrolled(folder, {*begun, *whole})}
+        self.allocations = read_allocations(folder)
         self._make_world = _one_world_at_a_time(self.run)
 
     @property
@@ -100,28 +116,46 @@ class LiveStudy:
 
     def progress(self) -> Progress:
         """Return how far the study is."""
-        finished = whole_sessions(self.folder, self.run.digest)
-        active = tuple(name for name, visit in self.visits.items() if not visit.over)
-        return Progress(self.planned, finished, active)
+        with self._lock:
+            people = tuple(self._people.values())
+        active = tuple(name for name, visit in tuple(self.visits.items()) if not visit.over)
+        return Progress(self.planned, people, active)
+
+    @property
+    def over(self) -> bool:
+        """Whether every participant wanted has taken part, and no one is under way."""
+        progress = self.progress()
+        if visitors_of(self.run).participant:
+            return not progress.active and len(progress.finished) >= self.planned
+        return not progress.active and len(progress.people) >= self.planned
 
     def resume(self) -> None:
         """Go on with every session that an earlier process left unfinished."""
-        whole = set(whole_sessions(self.folder, self.run.digest))
-        for number in range(1, self.planned + 1):
-            name = participant_id(number)
-            if journal_path(self.folder, name).is_file() and name not in whole:
-                self._begin(number)
+        for person in self.progress().people:
+            begun = journal_path(self.folder, person.participant).is_file()
+            if begun and person.state == "under way":
+                self._begin(participant_number(person.participant), person.slot)
 
     def enrol(self) -> Visit | None:
-        """Begin the next participant's session; None when there is no seat or no one is wanted."""
+        """Begin the next participant's session; None when there is no seat or no one is wanted.
+
+        The slot, and with it order and group, is decided here and not before. The slots of living
+        people who withdrew or were excluded are given again.
+        """
         with self._lock:
-            active = [visit for visit in self.visits.values() if not visit.over]
-            if len(active) >= self.seats:
+            progress = self.progress()
+            left = ("withdrawn", "excluded") if visitors_of(self.run).participant else ()
+            held = sum(person.state not in left for person in progress.people)
+            if len(progress.active) >= self.seats or held >= self.planned:
                 return None
-            taken = set(self._taken())
-            free = (n for n in range(1, self.planned + 1) if participant_id(n) not in taken)
-            number = next(free, None)
-            return None if number is None else self._begin(number)
+            number = next(n for n in itertools.count(1) if participant_id(n) not in self._people)
+            name, given = participant_id(number), next_allocation(progress.people)
+            self.allocations[name] = given
+            write_allocations(self.folder, self.allocations)
+            self._people[name] = Enrolled(name, given.slot, "under way")
+            visit = self._begin(number, given.slot)
+        visit.event("program", "allocated", f"slot {given.slot}: {given.reason}")
+        return visit
 
     def without_participants(self) -> None:
         """Begin sessions whose participants are simulated: no link has to be opened for them."""
@@ -157,15 +191,10 @@ class LiveStudy:
             if not visit.over:
                 visit.pause("program", "the program was stopped")
 
-    def _taken(self) -> list[str]:
-        purged = [p.stem for p in (self.folder / WITHDRAWN).glob("*.json")]
-        begun = [p.stem for p in (self.folder / JOURNALS).glob("*.jsonl")]
-        return [*purged, *begun, *self.visits]
-
-    def _begin(self, number: int) -> Visit:
+    def _begin(self, number: int, slot: int) -> Visit:
         name = participant_id(number)
         visit = Visit(
-            self.run, number, journal_path(self.folder, name), self._make_world,
+            replace(self.run, slot=slot), number, journal_path(self.folder, name), self._make_world,
             finish=self._finished, fail=self._failed, lockstep=self._lockstep,
         )  # fmt: skip
         self.visits[name] = visit
@@ -174,15 +203,18 @@ class LiveStudy:
         return visit
 
     def _finished(self, visit: Visit, record: SessionRecord) -> None:
-        left = record.participant.laps_driven and record.laps[-1].row.end_reason == "withdrew"
-        gone = bool(left or visit.participant.withdrawal())
-        if not record.participant.consented or (gone and self._purges):
-            self.purge(visit.name)
-        else:
-            with self._lock:
+        row, ends = record.participant, [lap.row.end_reason for lap in record.laps]
+        gone = "withdrew" in ends or visit.participant.withdrawal() is not None
+        state: State = "withdrawn"
+        with self._lock:
+            if not row.consented or (gone and self._purges):
+                self.purge(visit.name)
+            else:
                 files = encode(record, self.run.digest)
                 write_session(self.folder, visit.name, files, keep_damaged=True)
                 build_tables(self.folder, self.run.digest)
+                state = state_of(row.laps_planned, ends, excluded=row.excluded)
+            self._people[visit.name] = replace(self._people[visit.name], state=state)
         self._on_change()
 
     @property
@@ -238,5 +270,20 @@ def as_console(study: LiveStudy) -> dict[str, Any]:
         "type": "console",
         "planned": progress.planned,
         "finished": list(progress.finished),
-        "sessions": [visit.snapshot() for visit in study.visits.values()],
+        "people": [_person(study, person) for person in progress.people],
+        "sessions": [visit.snapshot() for visit in tuple(study.visits.values())],
+    }
+
+
+def _person(study: LiveStudy, person: Enrolled) -> dict[str, Any]:
+    """Return a row of the table of orders: what was given, why, and what became of it."""
+    protocol, seed = study.run.study.protocol, study.run.seed
+    given = study.allocations.get(person.participant)
+    return {
+        "participant": person.participant,
+        "state": person.state,
+        "slot": person.slot,
+        "reason": None if given is None else given.reason,
+        "order": in_words(laps_of(protocol, person.slot, seed)),
+        "group": group_of(protocol, person.slot, seed),
     }

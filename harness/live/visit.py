@@ -9,7 +9,9 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from harness.live.link_watch import LinkWatch
 from harness.live.mailbox import Mailbox
+from harness.live.punctuality import TOO_LATE_S, lateness_s
 from harness.session.borrowed import make_all_parts
 from harness.session.clock import Clock, LapStoppedError, StopReason, VirtualClock, WallClock
 from harness.session.journal import FileJournal
@@ -31,6 +33,7 @@ from harness.world.world import World
 from participants.driver import WithdrewError, kind_of
 from participants.live.demonstrator import LiveDemonstrator
 from participants.live.pages import LiveReader, LiveRespondent
+from participants.live.pictures import after_step
 from participants.live.seat import Request
 from protocols.record.journal import journal_header, read_journal
 from protocols.record.rows import LapRow, participant_id
@@ -85,7 +88,7 @@ class Visit:
     finish
         Called on that thread with the record, once the session is over.
     fail
-        Called on that thread with a traceback, when the session cannot go on.
+        Called on that thread with a traceback, when the session cannot go on or cannot be kept.
     lockstep
         Whether time is simulated and each step waits for its input: for tests, never for people.
 
@@ -130,6 +133,11 @@ class Visit:
         self._timer: threading.Timer | None = None
         self._events: deque[dict[str, Any]] = deque(maxlen=50)
         self._again = False
+        self._replayed = 0
+        self._links = {
+            "participant": LinkWatch("driver"),
+            "demonstrator": LinkWatch("demonstrator"),
+        }
         self.abandoned = journal.exists()
         self.state = "waiting"
         self._thread = threading.Thread(target=self._guarded, name=self.name, daemon=True)
@@ -265,13 +273,16 @@ class Visit:
     def _came(self, role: str, there: bool) -> None:
         """Note that a person's connection came or went, and hold the lap for a lost one."""
         self.event(role, "connected" if there else "disconnected")
+        if role != "participant":  # a lap goes on without its demonstrator: that is a release
+            return
         if self._timer is not None:
             self._timer.cancel()
         on_interruption = self._run.study.protocol.live.on_interruption
         if there and f"lost {role}" in self._paused_by:
             self.resume(f"lost {role}")
-        elif not there and role == "participant" and self._in_lap():
-            self._timer = threading.Timer(GRACE_S, self._lost, (role, on_interruption))
+        elif not there and self._in_lap():
+            left = max(GRACE_S - self.participant.silent_s, 0.0)
+            self._timer = threading.Timer(left, self._lost, (role, on_interruption))
             self._timer.daemon = True
             self._timer.start()
 
@@ -292,19 +303,25 @@ class Visit:
         """Keep what the console shows of a step."""
         self._step, self._steps = step, self._steps + 1
         pose = step.result.pose
+        self.participant.show_ahead(after_step(step.result, helped=step.control != "driver"))
         self._trail.append((round(pose.x, 3), round(pose.y, 3), step.control))
         if step.timing is not None:
             self._late_s = step.timing.late_s
+        if self._replayed:  # an earlier process has recorded what happened in it
+            self._replayed -= 1
+            return
+        for role, link in self._links.items():
+            for event, note in link.changes(step.telemetry):
+                self.event(role, event, note)
 
     def _guarded(self) -> None:
         try:
-            record = self._visit()
+            self._finish(self, self._visit())
         except BaseException:  # noqa: BLE001  # whatever it is, the others' sessions go on
-            self.state = "failed"
             self._fail(self, traceback.format_exc())
-            return
-        self.state = "finished"
-        self._finish(self, record)
+            self.state = "failed"
+        else:
+            self.state = "finished"
 
     def _visit(self) -> SessionRecord:
         run, name = self._run, self.name
@@ -318,6 +335,7 @@ class Visit:
         header = journal_header(run.study, run.seed, name, kind_of(parts.lap.driver))
         journal = FileJournal(self._path, header)
         self._open_journal(journal)
+        self._replayed = sum("tick" in entry for entry in journal.left)
         people, clock = self._with_journal(parts, journal)
         session = Session(
             run, self._number, world, people,
@@ -332,6 +350,8 @@ class Visit:
             practice = planned is not None and planned.until_comfortable
             self.participant.beside = {"practice": practice}
             self._trail.clear()
+            if self._stage.kind == "lap" and not journal.left:
+                self._look_at_machine()
             session.advance()
             journal.sync()
         self._stage = None
@@ -345,6 +365,15 @@ class Visit:
             for entry in self._events:
                 journal.event(entry)
             self._journal = journal
+
+    def _look_at_machine(self) -> None:
+        """Say before a lap that this machine is too busy for it; the experimenter decides."""
+        if not isinstance(self._clock, WallClock):
+            return
+        late = lateness_s()
+        if late > TOO_LATE_S:
+            allowed = f"allowed: {1000 * TOO_LATE_S:.0f} ms"
+            self.event("program", "machine busy", f"wakes {1000 * late:.0f} ms late; {allowed}")
 
     def _fit(self) -> bool:
         """Have the participant's machine checked; tell whether the session may begin."""

@@ -9,6 +9,7 @@ from harness.session.borrowed import borrowed_models
 from harness.session.replay import replay
 from harness.session.study_run import StudyRun
 from protocols.files.errors import InputError
+from protocols.record.enrolment import slot_of
 from protocols.record.header import read_header
 from protocols.record.journal import JOURNALS, read_journal
 from protocols.record.rows import participant_number
@@ -87,6 +88,7 @@ def _recover(folder: Path, run: StudyRun, name: str) -> None:
     if not number:
         raise InputError(f"{journal.path}: no participant is called {name!r}; allowed: P0001, ...")
     world = world_of(run)
+    run = replace(run, slot=slot_of(folder, name))
     lent = replace(run, previous=model_before(folder, number))
     record = replay(journal, run, number, world, borrowed_models(lent, number, world))
     write_session(folder, name, encode(record, run.digest), keep_damaged=True)

@@ -88,8 +88,9 @@ class LapLog:
             result_heading_rad=result.heading,
             **step.telemetry,
         )
-        if "driver_device" in step.telemetry:
-            self._ages.append(step.input_age_s)
+        sent_age = step.telemetry.get("driver_sent_age_s")
+        if sent_age is not None:  # a command that is too old was replaced by a new one: to stand
+            self._ages.append(max(step.input_age_s, sent_age))
         if timing is not None:
             self._paused.append(timing.paused_s)
             self._late.append(timing.late_s)

@@ -269,7 +269,7 @@ def _respondent(
     study, choice = run.study, run.study.protocol.cohort.respondent
     if choice is None:
         return None
-    laps = laps_of(study.protocol, number, run.seed)
+    laps = laps_of(study.protocol, run.slot_of(number), run.seed)
     asked = [pair for planned in laps for pair in study.questions(planned)]
     asked += study.session_questions
     setup = RespondentSetup(

@@ -13,7 +13,7 @@ from harness.session.clock import Clock, LapStoppedError, Timing
 from harness.session.lap import LapParts
 from harness.session.parts import SessionParts, draw_person, session_model
 from harness.session.session import Session
-from harness.session.study_run import StudyRun
+from harness.session.study_run import StudyRun, of_one
 from harness.world.world import World
 from lad.assistant import NO_ASSISTANCE, Assistance, Assistant
 from lad.command import Command
@@ -89,6 +89,7 @@ def replay(
 
 def parts_to_replay(entries: "Entries", run: StudyRun, number: int, kind: str) -> SessionParts:
     """Return parts that take everything from a journal but the model's answers."""
+    run = of_one(run, number)
     cohort, person = run.study.protocol.cohort, draw_person(run, number)
     demonstrator = None if cohort.demonstrator is None else ReplayedDemonstrator(entries, None)
     return SessionParts(

@@ -86,7 +86,7 @@ class Session:
         self._parts, self._journal = parts, journal
         self._clock: Clock = VirtualClock() if clock is None else clock
         self._centreline = Centreline(run.study.course)
-        self.stages = stages_of(run.study.protocol, number, run.seed)
+        self.stages = stages_of(run.study.protocol, run.slot_of(number), run.seed)
         self._planned = tuple(
             stage.planned
             for stage in self.stages
@@ -279,7 +279,7 @@ class Session:
             excluded=reason is not None,
             exclusion_reason=reason,
             order=in_words(self._planned),
-            group=group_of(protocol, self._number, self._run.seed),
+            group=group_of(protocol, self._run.slot_of(self._number), self._run.seed),
         )
 
 

@@ -23,17 +23,25 @@ class StudyRun:
         study directory's own, which an earlier version may have computed.
     previous
         The model that the participant before has left, where a condition borrows it; None for none.
+    slot
+        Position in the sequence of orders and groups that was given at enrolment; None for the
+        participant's number.
     """
 
     study: ResolvedStudy
     seed: int
     digest: str | None = None
     previous: bytes | None = None
+    slot: int | None = None
+
+    def slot_of(self, number: int) -> int:
+        """Return a participant's position in the sequence of orders and groups."""
+        return number if self.slot is None else self.slot
 
 
 def of_one(run: StudyRun, number: int) -> StudyRun:
     """Return the study as it is for one participant: with what is different for the group."""
-    protocol = of_participant(run.study.protocol, number, run.seed)
+    protocol = of_participant(run.study.protocol, run.slot_of(number), run.seed)
     return replace(run, study=replace(run.study, protocol=protocol))
 
 

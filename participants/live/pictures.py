@@ -1,10 +1,30 @@
 """What each role is shown in a step, as plain data: nothing that the role must not know."""
 
-from typing import Any
+from typing import Any, Protocol
 
 from lad.command import Command
 from participants.sight import Sight
 from protocols.pose import Pose
+
+
+class Moved(Protocol):
+    """What is there after a step."""
+
+    @property
+    def t(self) -> float:
+        """Lap time, s."""
+
+    @property
+    def pose(self) -> Pose:
+        """Where the chair is."""
+
+    @property
+    def velocity(self) -> Command:
+        """How fast it is."""
+
+    @property
+    def contact(self) -> bool:
+        """Whether it touched something."""
 
 
 def _pose(pose: Pose) -> list[float]:
@@ -27,6 +47,25 @@ def driver_picture(sight: Sight) -> dict[str, Any]:
         "gates": int(sight.gates_passed),
         "helped": bool(sight.helped),
         "contact": bool(sight.contact),
+    }
+
+
+def after_step(result: Moved, *, helped: bool) -> dict[str, Any]:
+    """Return what of the driver's picture a step changes; gates are counted later.
+
+    Parameters
+    ----------
+    result
+        What is there after the step.
+    helped
+        Whether the assistant's command counted in it.
+    """
+    return {
+        "t": float(result.t),
+        "pose": _pose(result.pose),
+        "velocity": _pair(result.velocity),
+        "helped": helped,
+        "contact": bool(result.contact),
     }
 
 

@@ -10,6 +10,7 @@ from protocols.order import group_of, in_words, laps_of
 from protocols.record.codebook import CODEBOOK_FILE, codebook_json
 from protocols.record.column import SCHEMA_VERSIONS, arrow_schema, brought_up_to_date
 from protocols.record.elsewhere.faults import Tell, foreign_faults
+from protocols.record.enrolment import purged, slot_of
 from protocols.record.header import STUDY_FILE, StudyHeader, read_header
 from protocols.record.identity import study_digest
 from protocols.record.journal import journal_path
@@ -21,7 +22,6 @@ from protocols.record.resume import resume_command
 from protocols.record.rows import (
     ENDS_SESSION,
     participant_id,
-    participant_number,
     questions_follow,
 )
 from protocols.record.session import (
@@ -105,6 +105,9 @@ def _header_faults(folder: Path, header: StudyHeader, again: str) -> Iterator[st
 def _missing_sessions(
     folder: Path, header: StudyHeader, sessions: tuple[Path, ...], again: str
 ) -> Iterator[str]:
+    if header.origin == "live":
+        yield from _missing_people(folder, header, sessions, again)
+        return
     there = {session.name for session in sessions}
     planned = map(participant_id, range(1, header.protocol.cohort.participants + 1))
     absent = [name for name in planned if name not in there]
@@ -121,9 +124,21 @@ def _missing_sessions(
         )
 
 
+def _missing_people(
+    folder: Path, header: StudyHeader, sessions: tuple[Path, ...], again: str
+) -> Iterator[str]:
+    """Tell how many living people are still to come; whoever left has taken part."""
+    wanted = header.protocol.cohort.participants
+    missing = wanted - len({session.name for session in sessions} | purged(folder))
+    if missing > 0:
+        yield f"{missing} of {wanted} sessions are missing; {again} adds them"
+
+
 def _sessions_beyond(
     folder: Path, header: StudyHeader, sessions: tuple[Path, ...]
 ) -> Iterator[str]:
+    if header.origin == "live":  # people who left are replaced, by others with other numbers
+        return
     count = header.protocol.cohort.participants
     planned = set(map(participant_id, range(1, count + 1)))
     beyond = [session.name for session in sessions if session.name not in planned]
@@ -170,11 +185,8 @@ def _allocation_faults(
     session: Path, participant: pa.Table, study: ResolvedStudy, seed: int
 ) -> Iterator[str]:
     """Compare order and group with those the protocol gives; a record of before has neither."""
-    number = participant_number(session.name)
-    given = (
-        in_words(laps_of(study.protocol, number, seed)),
-        group_of(study.protocol, number, seed),
-    )
+    slot = slot_of(session.parents[1], session.name)
+    given = in_words(laps_of(study.protocol, slot, seed)), group_of(study.protocol, slot, seed)
     for row in participant.select(["order", "group"]).to_pylist():
         if row["order"] is not None and (row["order"], row["group"]) != given:
             yield f"{session / PARTICIPANT_FILE}: another order or group than the protocol gives"
@@ -204,7 +216,8 @@ def _survey_faults(
 ) -> Iterator[str]:
     """Compare the answers' rows with the questions the protocol asks after each lap."""
     there = list(zip(*(surveys[c].to_pylist() for c in ("lap", "instrument", "item")), strict=True))
-    planned = dict(enumerate(laps_of(study.protocol, participant_number(session.name), seed)))
+    slot = slot_of(session.parents[1], session.name)
+    planned = dict(enumerate(laps_of(study.protocol, slot, seed)))
     by_condition = {lap.condition: lap for lap in planned.values()}
     conditions = dict(zip(laps["lap"].to_pylist(), laps["condition"].to_pylist(), strict=True))
     for number in set(conditions) - set(planned):  # driven once more

@@ -37,6 +37,7 @@ export function makeStick(send, options = {}) {
     last = now;
     const attentive = !document.hidden && document.hasFocus();
     const pad = gamepad();
+    if (!pad && stick.device === "gamepad") { stick.device = "keyboard"; stick.f = stick.l = 0; } // unplugged: no ramp
     if (stick.touch) { stick.f = stick.touch.f; stick.l = stick.touch.l; stick.device = "touch"; }
     else if (pad && (pad.f || pad.l || pad.pressed || stick.device === "gamepad")) {
       stick.f = pad.f; stick.l = pad.l; stick.device = "gamepad";
@@ -83,7 +84,10 @@ export function makeStick(send, options = {}) {
 export function makeMotion(period) {
   let before = null, now = null, at = 0;
   return {
-    put(picture) { before = now && picture.t > now.t ? now : null; now = picture; at = performance.now(); },
+    put(picture) {
+      if (now && picture.t === now.t) { now = picture; return; } // the same moment, told again
+      before = now && picture.t > now.t ? now : null; now = picture; at = performance.now();
+    },
     pose() {
       if (!now) return null;
       if (!before) return now.pose;

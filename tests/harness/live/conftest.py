@@ -8,10 +8,9 @@ import threading
 import time
 
 import pytest
-import uvicorn
 from websockets.sync.client import connect
 
-from harness.live.server import make_app
+from harness.live.serve import web_server
 from harness.live.study import LiveStudy
 from harness.session.study_run import StudyRun
 from protocols.load import resolve_study
@@ -21,8 +20,8 @@ from protocols.record.store import locked
 class Served:
     """A live study, and what a browser needs to find it."""
 
-    def __init__(self, study, port):
-        self.study, self.port = study, port
+    def __init__(self, study, port, release):
+        self.study, self.port, self.release = study, port, release
         self.browsers = contextlib.ExitStack()
         self.origin = f"http://127.0.0.1:{port}"
 
@@ -32,7 +31,7 @@ class Served:
     def open(self, role, origin=None, token=None, **hello):
         opening = connect(
             f"ws://127.0.0.1:{self.port}/ws", origin=origin or self.origin, max_size=2**20,
-            open_timeout=30,
+            open_timeout=120,
         )  # fmt: skip
         socket_ = self.browsers.enter_context(opening)
         first = {"type": "hello", "token": token or self.link(role), **hello}
@@ -57,23 +56,18 @@ def serve(tmp_path):
         path.write_text(json.dumps(data))
         run = StudyRun(resolve_study(str(path)), seed)
         folder = tmp_path / "study"
-        hold = locked(folder)
-        hold.__enter__()
+        hold = contextlib.ExitStack()
+        hold.enter_context(locked(folder))
         study = LiveStudy(run, folder, **settings)
         listener = socket.create_server(("127.0.0.1", 0))
         port = listener.getsockname()[1]
         hosts = frozenset({f"127.0.0.1:{port}"})
-        app = make_app(study, hosts, frozenset({f"http://127.0.0.1:{port}"}))
-        config = uvicorn.Config(
-            app, log_level="critical", access_log=False, lifespan="off", ws="websockets-sansio",
-            ws_max_size=16_384,
-        )  # fmt: skip
-        server = uvicorn.Server(config)
+        server = web_server(study, hosts, frozenset({f"http://127.0.0.1:{port}"}))
         thread = threading.Thread(
             target=lambda: asyncio.run(server.serve(sockets=[listener])), daemon=True
         )
         thread.start()
-        served = Served(study, port)
+        served = Served(study, port, hold.close)
         running.append((server, thread, served, listener, hold))
         return served
 
@@ -87,4 +81,4 @@ def serve(tmp_path):
         server.should_exit = True
         thread.join(30)
         listener.close()
-        hold.__exit__(None, None, None)
+        hold.close()

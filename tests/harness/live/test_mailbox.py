@@ -8,7 +8,7 @@ import pytest
 from harness.live.mailbox import Mailbox
 from harness.live.messages import Stick
 from harness.session.clock import LapStoppedError
-from lad.command import Command
+from lad.command import STILL, Command
 from participants.driver import WithdrewError
 from participants.live.demonstrator import LiveDemonstrator
 from participants.live.driver import MOST_AGE_S, LiveDriver
@@ -78,7 +78,7 @@ class Told:
 
 
 def test_old_inputs_never_act(seat, monkeypatch):
-    """A driver gives no new command from a stale, or a repeated, input."""
+    """A repeated input is no new command; a stale one, and a lost link, are a command to stand."""
     from protocols.pose import Pose
 
     monkeypatch.setattr(Sees, "pose", Pose(0.0, 0.0, 0.0))
@@ -89,8 +89,13 @@ def test_old_inputs_never_act(seat, monkeypatch):
     assert driver.act(Sees()) is None
     seat.now[0] += 0.5
     seat.put_stick(stick(2, 10.1, clutch=True))
-    assert driver.act(Sees()) is None
+    assert driver.act(Sees()) == STILL
     assert not demonstrator.assist([0.0, 0.0]).helping
+    seat.disconnect(seat.number)
+    assert driver.act(Sees()) == STILL
+    seat.connect(lambda: None)
+    seat.put_stick(stick(1, 10.5))  # a page that was opened again counts from 1
+    assert driver.act(Sees()) == Command(0.7, 0.0)
 
 
 def test_a_page_waits_for_its_own_answer():

@@ -35,6 +35,8 @@ def received(browser, kind, seconds=20):
         message = json.loads(browser.recv(timeout=seconds))
         if message["type"] == kind:
             return message
+        if message["type"] == "ping":
+            browser.send(json.dumps({"type": "pong", "id": message["id"]}))
     return pytest.fail(f"no {kind}")
 
 
@@ -117,6 +119,26 @@ def test_a_revoked_link_is_refused(served):
     assert closed_with(served.open("experimenter", token=token)) == 4003
 
 
+def test_a_replayed_token_moves_nothing_after_its_session(serve):
+    """Who kept a participant's own token, and says hello with it again, gets a goodbye only."""
+    served = serve({**PROTOCOL, "laps": [{"condition": "free", "time_limit_s": 0.2}]})
+    browser = served.open("participant")
+    person = received(browser, "welcome")["person"]
+    for _ in range(3):
+        page = received(browser, "page")
+        browser.send(json.dumps({"type": "answer", "request": page["request"], "entered": {}}))
+    received(browser, "bye")
+    for token in (person, served.link("participant")):
+        replayed = served.open("participant", token=token, person=person)
+        assert received(replayed, "welcome")["role"] == "participant"
+        received(replayed, "bye")
+        assert closed_with(replayed) == 1000
+    assert list(served.study.visits) == ["P0001"]
+    assert served.study.visits["P0001"].over
+    for letter in ("d", "x"):  # and it opens no other role
+        assert fetched(served, f"/{letter}/{person}")[0] == 404
+
+
 def test_a_participant_cannot_order(served):
     """What only the console may do is ignored from another role's socket."""
     browser = served.open("participant")
@@ -196,8 +218,8 @@ def test_what_is_no_message_is_none(bad):
     assert messages.decode(bad) is None
 
 
-def test_ten_thousand_malformed_messages_decode_to_nothing_or_to_a_message():
-    """Whatever bytes come, decoding gives a message of ours or none, and raises nothing."""
+def malformed(count):
+    """Yield so many messages with a few bytes changed, removed or put in."""
     rng = np.random.default_rng(10_000)
     whole = [
         b'{"type":"input","n":12,"sent":123.5,"f":0.5,"l":-0.25,"c":true,"dev":"touch"}',
@@ -205,8 +227,7 @@ def test_ten_thousand_malformed_messages_decode_to_nothing_or_to_a_message():
         b'{"type":"order","do":"pause","participant":"P0001","text":"now"}',
         b'{"type":"hello","token":"p..x.y","ids":{"PROLIFIC_PID":"1"},"width":1280}',
     ]
-    kept = 0
-    for _ in range(10_000):
+    for _ in range(count):
         content = bytearray(whole[rng.integers(len(whole))])
         for _ in range(rng.integers(1, 6)):
             place = rng.integers(len(content))
@@ -218,8 +239,42 @@ def test_ten_thousand_malformed_messages_decode_to_nothing_or_to_a_message():
             else:
                 content[place:place] = bytes(rng.integers(32, 127, size=rng.integers(1, 9)))
             content = content or bytearray(b" ")
-        kept += messages.decode(bytes(content)) is not None
+        yield bytes(content)
+
+
+def test_ten_thousand_malformed_messages_decode_to_nothing_or_to_a_message():
+    """Whatever bytes come, decoding gives a message of ours or none, and raises nothing."""
+    kept = sum(messages.decode(content) is not None for content in malformed(10_000))
     assert kept < 9000
+
+
+def sent_to(served, person, contents):
+    """Send messages one after the other; whenever the server closes the socket, open another."""
+    browser, opened = served.open("participant", person=person), 1
+    for content in contents:
+        try:
+            browser.send(content.decode("latin-1"))
+            browser.recv(timeout=0)
+        except TimeoutError:
+            pass
+        except ConnectionClosed:
+            browser, opened = served.open("participant", person=person), opened + 1
+    browser.close()
+    return opened
+
+
+@pytest.mark.slow
+def test_ten_thousand_malformed_messages_leave_the_session_alive(served):
+    """Through real sockets: what follows the first senseless one is not read; others come back."""
+    person = received(served.open("participant"), "welcome")["person"]
+    assert sent_to(served, person, malformed(10_000)) > 50
+    browser = served.open("participant", person=person)
+    page = received(browser, "page")
+    assert list(served.study.visits) == ["P0001"]
+    assert not served.study.visits["P0001"].over
+    entered = {"type": "answer", "request": page["request"], "entered": {}}
+    browser.send(json.dumps(entered))
+    assert received(browser, "page")["kind"] == "instructions"
 
 
 def test_malformed_messages_leave_the_session_alive(served):

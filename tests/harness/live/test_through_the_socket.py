@@ -59,6 +59,8 @@ def drive(served):
             assert message["kind"] in {"check", "instructions", "ready"}
             answer = {"type": "answer", "request": message["request"], "entered": {}}
             browser.send(json.dumps(answer))
+        elif message["type"] == "ping":
+            browser.send(json.dumps({"type": "pong", "id": message["id"]}))
         elif message["type"] == "picture":
             forward, left = stick(message["t"], message["pose"])
             browser.send(
