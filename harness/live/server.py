@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import itertools
 import json
 from collections.abc import Callable, Mapping
 from importlib.resources import files
@@ -15,11 +16,11 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from harness.live import messages
-from harness.live.console import carry_out
+from harness.live.console import carry_out, shown
 from harness.live.guard import REFUSED, Guard
 from harness.live.limits import TokenBucket
 from harness.live.mailbox import Mailbox
-from harness.live.study import LiveStudy, as_console
+from harness.live.study import LiveStudy
 from harness.live.tokens import ROLES, Grant
 from harness.live.visit import Visit
 from protocols.course.obstacles import obstacle_boxes
@@ -38,6 +39,12 @@ RATE, BURST = 120.0, 240
 
 HELLO_S, PING_S, CONSOLE_S = 10.0, 1.0, 0.2
 """How long a first message may take, how often round trips are measured and consoles fed, s."""
+
+FIRST_PINGS, FIRST_PING_S = 9, 0.15
+"""A new connection's round trip is measured so often, so quickly: the machine check needs it."""
+
+CONSOLE_WHOLE = 5
+"""Every so many times a console gets what changes slowly, too."""
 
 REPLACED, FLOODED = 4001, 4008
 """Reasons for which a socket is closed; the pages know them."""
@@ -200,9 +207,10 @@ class _Server:
 
         reading = asyncio.create_task(self._read(socket, obey, gone))
         try:
-            while not gone.is_set():
-                news = as_console(self._study)
-                news["trails"] = {name: v.trail()[::4] for name, v in self._study.visits.items()}
+            for n in itertools.count():
+                if gone.is_set():
+                    break
+                news = shown(self._study, whole=n % CONSOLE_WHOLE == 0)
                 await socket.send_text(json.dumps(news, default=float))
                 await _either(gone, CONSOLE_S)
         finally:
@@ -220,12 +228,21 @@ class _Server:
         try:
             await self._feed(socket, seat, gone, lambda: not visit.over)
             if visit.over and not gone.is_set():
-                completion = self._study.run.study.protocol.live.completion
-                bye = None if completion is None else completion.model_dump(mode="json")
-                await socket.send_text(json.dumps({"type": "bye", "completion": bye}))
+                await socket.send_text(json.dumps(self._farewell(visit)))
                 await _close(socket, 1000)
         finally:
             reading.cancel()
+
+    def _farewell(self, visit: Visit) -> dict[str, Any]:
+        """Return the last message to a participant: only who went through gets a code or link."""
+        live = self._study.run.study.protocol.live
+        through = visit.farewell == "finished" and live.completion is not None
+        return {
+            "type": "bye",
+            "reason": visit.farewell,
+            "purged": visit.farewell == "withdrew" and self._study.purges,
+            "completion": live.completion.model_dump(mode="json") if through else None,
+        }
 
     async def _feed(
         self, socket: WebSocket, seat: Mailbox, gone: asyncio.Event, wanted: Callable[[], bool]
@@ -249,10 +266,10 @@ class _Server:
                 fresh, page, picture = seat.to_send(page, picture)
                 for message in fresh:
                     await socket.send_text(json.dumps(message, default=float))
-                if loop.time() - pinged > PING_S:
+                if loop.time() - pinged > (PING_S if pings >= FIRST_PINGS else FIRST_PING_S):
                     pinged, pings = loop.time(), pings + 1
                     await socket.send_text(json.dumps(seat.ping(pings)))
-                await _either(news, 0.25)
+                await _either(news, 0.25 if pings >= FIRST_PINGS else FIRST_PING_S)
                 news.clear()
         finally:
             seat.disconnect(number)
@@ -295,7 +312,7 @@ def _to_seat(seat: Mailbox | None, message: messages.Received) -> None:
 
 def _for_participant(live: Mapping[str, Any]) -> dict[str, Any]:
     """Return what of the live settings a participant's page needs."""
-    wanted = ("view", "show_lap_time", "machine_check", "instructions")
+    wanted = ("view", "show_lap_time", "machine_check", "instructions", "questions", "withdrawal")
     return {name: live[name] for name in wanted}
 
 

@@ -1,5 +1,6 @@
 """A live study: who takes part next, which sessions are under way, and what is kept of them."""
 
+import contextlib
 import json
 import os
 import secrets
@@ -10,7 +11,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
 
 from harness.live.tokens import Tokens
 from harness.live.visit import Visit, visitors_of
@@ -19,13 +19,15 @@ from harness.session.study_run import StudyRun, portable
 from harness.world.world import World
 from protocols.files.errors import InputError
 from protocols.record.atomic import write_whole
+from protocols.record.folder import REPORT
 from protocols.record.header import StudyHeader
 from protocols.record.journal import JOURNALS, journal_path
 from protocols.record.rows import participant_id
 from protocols.record.session import SessionRecord, encode
-from protocols.record.sessions import SESSIONS
+from protocols.record.sessions import SESSIONS, SET_ASIDE
 from protocols.record.store import (
     build_tables,
+    clear_failure,
     open_folder,
     whole_sessions,
     write_failure,
@@ -34,6 +36,10 @@ from protocols.record.store import (
 
 WITHDRAWN = "withdrawn"
 """Folder of a study directory with a file for each participant whose data were purged."""
+
+
+IDENTITIES = "identities.sqlite"
+"""In the private folder beside a study: platforms' ids; it is there only where there are any."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +112,9 @@ class LiveStudy:
 
     def resume(self) -> None:
         """Go on with every session that an earlier process left unfinished."""
+        for purged in self._purged():
+            if self._of(purged):  # the program was stopped while it deleted
+                self.purge(purged)
         whole = set(whole_sessions(self.folder, self.run.digest))
         for number in range(1, self.planned + 1):
             name = participant_id(number)
@@ -118,10 +127,14 @@ class LiveStudy:
             active = [visit for visit in self.visits.values() if not visit.over]
             if len(active) >= self.seats:
                 return None
-            taken = set(self._taken())
-            free = (n for n in range(1, self.planned + 1) if participant_id(n) not in taken)
-            number = next(free, None)
+            number = self.next_number()
             return None if number is None else self._begin(number)
+
+    def next_number(self) -> int | None:
+        """Return who begins next, counted from 1; None when everyone who is planned has begun."""
+        taken = set(self._taken())
+        free = (n for n in range(1, self.planned + 1) if participant_id(n) not in taken)
+        return next(free, None)
 
     def without_participants(self) -> None:
         """Begin sessions whose participants are simulated: no link has to be opened for them."""
@@ -134,22 +147,45 @@ class LiveStudy:
         wanted = self.run.study.protocol.live.id_parameters
         kept = {name: value for name, value in ids.items() if name in wanted}
         if kept:
-            with sqlite3.connect(self.private / "identities.sqlite") as database:
+            with (
+                contextlib.closing(sqlite3.connect(self.private / IDENTITIES)) as database,
+                database,
+            ):
                 database.execute("create table if not exists ids (participant, name, value)")
                 rows = [(participant, name, value) for name, value in kept.items()]
                 database.executemany("insert into ids values (?, ?, ?)", rows)
 
     def purge(self, participant: str) -> None:
-        """Delete every byte of a participant's data; a file with the number and date stays."""
-        shutil.rmtree(self.folder / SESSIONS / participant, ignore_errors=True)
-        journal_path(self.folder, participant).unlink(missing_ok=True)
-        if (self.private / "identities.sqlite").exists():
-            with sqlite3.connect(self.private / "identities.sqlite") as database:
+        """Delete every byte of a participant's data; a file with the number and date stays.
+
+        A report that was made before has them in its tables and figures: it is deleted, too.
+        """
+        with self._lock:
+            (self.folder / WITHDRAWN).mkdir(exist_ok=True)
+            text = {"participant": participant, "purged": datetime.now(UTC).date().isoformat()}
+            write_whole(self.folder / WITHDRAWN / f"{participant}.json", json.dumps(text).encode())
+            shutil.rmtree(self.folder / REPORT, ignore_errors=True)
+            for path in self._of(participant):
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
+            clear_failure(self.folder, participant)
+            self._forget(participant)
+            build_tables(self.folder, self.run.digest)
+
+    def _of(self, participant: str) -> list[Path]:
+        """Return the files and folders that hold something of a participant."""
+        own = [
+            self.folder / SESSIONS / participant,
+            journal_path(self.folder, participant),
+            *(self.folder / SET_ASIDE).glob(f"{participant}-*"),
+        ]
+        return [path for path in own if path.exists()]
+
+    def _forget(self, participant: str) -> None:
+        path = self.private / IDENTITIES
+        if path.exists():
+            with contextlib.closing(sqlite3.connect(path)) as database, database:
+                database.execute("pragma secure_delete = on")  # else the bytes stay in the file
                 database.execute("delete from ids where participant = ?", (participant,))
-        (self.folder / WITHDRAWN).mkdir(exist_ok=True)
-        text = {"participant": participant, "purged": datetime.now(UTC).date().isoformat()}
-        write_whole(self.folder / WITHDRAWN / f"{participant}.json", json.dumps(text).encode())
-        build_tables(self.folder, self.run.digest)
 
     def close(self) -> None:
         """Hold every session that is under way: the same command resumes it from its journal."""
@@ -158,9 +194,11 @@ class LiveStudy:
                 visit.pause("program", "the program was stopped")
 
     def _taken(self) -> list[str]:
-        purged = [p.stem for p in (self.folder / WITHDRAWN).glob("*.json")]
         begun = [p.stem for p in (self.folder / JOURNALS).glob("*.jsonl")]
-        return [*purged, *begun, *self.visits]
+        return [*self._purged(), *begun, *self.visits]
+
+    def _purged(self) -> list[str]:
+        return sorted(path.stem for path in (self.folder / WITHDRAWN).glob("*.json"))
 
     def _begin(self, number: int) -> Visit:
         name = participant_id(number)
@@ -176,7 +214,7 @@ class LiveStudy:
     def _finished(self, visit: Visit, record: SessionRecord) -> None:
         left = record.participant.laps_driven and record.laps[-1].row.end_reason == "withdrew"
         gone = bool(left or visit.participant.withdrawal())
-        if not record.participant.consented or (gone and self._purges):
+        if not record.participant.consented or (gone and self.purges):
             self.purge(visit.name)
         else:
             with self._lock:
@@ -186,7 +224,8 @@ class LiveStudy:
         self._on_change()
 
     @property
-    def _purges(self) -> bool:
+    def purges(self) -> bool:
+        """Whether the data of a participant who stops are deleted."""
         return self.run.study.protocol.live.withdrawal == "purge"
 
     def _failed(self, visit: Visit, trace: str) -> None:
@@ -229,14 +268,3 @@ def _one_world_at_a_time(run: StudyRun) -> Callable[[], World]:
             return world_of(run, shared=False)
 
     return make
-
-
-def as_console(study: LiveStudy) -> dict[str, Any]:
-    """Return what the experimenter's console shows."""
-    progress = study.progress()
-    return {
-        "type": "console",
-        "planned": progress.planned,
-        "finished": list(progress.finished),
-        "sessions": [visit.snapshot() for visit in study.visits.values()],
-    }
