@@ -24,6 +24,8 @@ from harness.live.study import LiveStudy
 from harness.live.tokens import ROLES, Grant
 from harness.live.visit import Visit
 from protocols.course.obstacles import obstacle_boxes
+from protocols.course.schema import Course
+from protocols.live import LiveSettings
 
 TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -137,7 +139,7 @@ class _Server:
             "type": "welcome",
             "role": "participant",
             "person": person,
-            "course": course_picture(self._study),
+            "course": course_picture(self._study.run.study.course),
             "live": _for_participant(protocol.live.model_dump(mode="json")),
             "period_s": protocol.control_period_s,
         }
@@ -166,8 +168,8 @@ class _Server:
         welcome = {
             "type": "welcome",
             "role": "demonstrator",
-            "course": course_picture(self._study),
-            "live": {"clutch": protocol.live.clutch, "view": protocol.live.demonstrator_view},
+            "course": course_picture(self._study.run.study.course),
+            "live": _for_demonstrator(protocol.live),
             "period_s": protocol.control_period_s,
         }
         await socket.send_text(json.dumps(welcome))
@@ -197,7 +199,8 @@ class _Server:
         return None
 
     async def _experimenter(self, socket: WebSocket) -> None:
-        welcome = {"type": "welcome", "role": "experimenter", "course": course_picture(self._study)}
+        course = course_picture(self._study.run.study.course)
+        welcome = {"type": "welcome", "role": "experimenter", "course": course}
         await socket.send_text(json.dumps(welcome))
         gone = asyncio.Event()
 
@@ -316,9 +319,12 @@ def _for_participant(live: Mapping[str, Any]) -> dict[str, Any]:
     return {name: live[name] for name in wanted}
 
 
-def course_picture(study: LiveStudy) -> dict[str, Any]:
+def _for_demonstrator(live: LiveSettings) -> dict[str, Any]:
+    return {"clutch": live.clutch, "view": live.demonstrator_view, "shadow": live.shadow}
+
+
+def course_picture(course: Course) -> dict[str, Any]:
     """Return the course as a browser draws it: what stands there, and the gates."""
-    course = study.run.study.course
     boxes = [
         [b.cx, b.cy, b.heading, b.length, b.width, b.height, b.name] for b in obstacle_boxes(course)
     ]

@@ -38,7 +38,7 @@ function lobby() {
     el("p", {}, `As soon as a lap begins you see ${what}, where the participant holds the stick, and what the laser sees.`),
     el("p", {}, how),
     el("p", {}, "Drive with the arrow keys, W A S D, a gamepad or the round pad. Your commands count only while you have taken over."),
-    el("p", {}, "In some laps you only watch: then the same button means “I would help now”, and the chair does not obey you.")));
+    welcome.live.shadow ? el("p", {}, "In some laps you only watch: then the same button means “I would help now”, and the chair does not obey you.") : null));
   announce("Waiting for a lap");
 }
 

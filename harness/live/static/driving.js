@@ -21,10 +21,15 @@ export function openStage(welcome, stick, motion, { stop, comfortable }) {
   stick.start();
   document.body.classList.add("on-stage");
   const wanted = welcome.live.view === "first-person";
-  const view = wanted ? openView(canvas, welcome.course, (n) => { stick.state.frames += n; }) : null;
+  const view = wanted ? openView(canvas, welcome.course, (n) => counted(n)) : null;
   corner.hidden = !view;
   const shown = { helped: false, contact: false };
   let on = true;
+
+  function counted(n) {
+    stick.state.frames += n;
+    document.body.dataset.drawn = n + Number(document.body.dataset.drawn || 0);
+  }
 
   function bumped() {
     root.classList.add("shake");
@@ -39,7 +44,7 @@ export function openStage(welcome, stick, motion, { stop, comfortable }) {
     if (pose) {
       const options = { gates: picture.gates };
       if (view) { view.draw(pose, picture.gates); drawPlan(corner, welcome.course, pose, options); }
-      else { drawPlan(canvas, welcome.course, pose, options); stick.state.frames += 1; }
+      else { drawPlan(canvas, welcome.course, pose, options); counted(1); }
       if (picture.helped !== shown.helped) {
         helped.hidden = !picture.helped;
         announce(picture.helped ? "Somebody helps" : "You drive");

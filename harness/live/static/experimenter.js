@@ -38,7 +38,7 @@ function update(message) {
       const card = makeCard(session.participant, welcome.course,
         (what, text) => net.send({ type: "order", do: what, participant: session.participant, text }));
       cards.set(session.participant, card);
-      document.getElementById("console").prepend(card.root);
+      document.getElementById("console").append(card.root);
     }
     cards.get(session.participant).update(session, (message.trails || {})[session.participant]);
   }

@@ -18,6 +18,7 @@ export function makeCard(name, course, order) {
   const text = el("input", { test: "note-text", id: `note-${name}`, maxlength: "2000", placeholder: "note, or reason for the next action" });
   const said = () => { const value = text.value; text.value = ""; return value; };
   const act = (label, what, test, kind = "quiet") => el("button", { class: kind, test, onclick: () => order(what, said()) }, label);
+  const drawn = el("div", { hidden: true }, plan, legend(), help, quality);
   const root = el("section", { class: "card", test: `session-${name}`, "aria-label": `Session ${name}` },
     el("h2", {}, name), stage,
     row(act("Emergency stop", "emergency", "emergency-stop", "stop"), act("Start lap", "start", "lap-begin"),
@@ -25,7 +26,7 @@ export function makeCard(name, course, order) {
       act("Stop lap", "stop", "lap-stop"), act("Repeat lap", "repeat", "lap-repeat")),
     row(el("label", { for: `note-${name}`, class: "unseen" }, `Note or reason, session ${name}`), text,
       el("button", { class: "quiet", test: "note-save", onclick: () => { if (text.value) order("note", said()); } }, "Save note")),
-    plan, legend(), help, quality, facts,
+    drawn, facts,
     row(act("Skip to next", "skip", "stage-skip"), sure("End session", "session-end", () => order("end", said())),
       sure("Withdraw participant", "session-withdraw", () => order("withdraw", said()))),
     el("div", { class: "wide" }, el("table", { class: "log" }, el("caption", {}, "Last events"), log)));
@@ -39,6 +40,8 @@ export function makeCard(name, course, order) {
       [event.utc.slice(11, 19), event.lap === null ? "" : `lap ${event.lap}, step ${event.step}`, event.actor, event.event, event.note || ""]
         .map((value) => el("td", {}, value)))));
     if (trail) history = trail;
+    root.classList.toggle("over", !["running", "waiting"].includes(session.state));
+    drawn.hidden = !session.pose;
     if (!session.pose) return;
     drawPlan(plan, course, session.pose, { trail: history, mine: session.control !== "driver" });
     const pen = plan.getContext("2d"), h = plan.clientHeight;
