@@ -238,13 +238,14 @@ class _Server:
 
     def _farewell(self, visit: Visit) -> dict[str, Any]:
         """Return the last message to a participant: only who went through gets a code or link."""
-        live = self._study.run.study.protocol.live
-        through = visit.farewell == "finished" and live.completion is not None
+        completion = self._study.run.study.protocol.live.completion
+        if visit.farewell != "finished":
+            completion = None
         return {
             "type": "bye",
             "reason": visit.farewell,
             "purged": visit.farewell == "withdrew" and self._study.purges,
-            "completion": live.completion.model_dump(mode="json") if through else None,
+            "completion": None if completion is None else completion.model_dump(mode="json"),
         }
 
     async def _feed(

@@ -43,7 +43,7 @@ export function drawPlan(canvas, course, pose, options = {}) {
     pen.setLineDash([0.15, 0.1]); pen.beginPath(); pen.moveTo(...left); pen.lineTo(...right); pen.stroke(); pen.setLineDash([]);
   });
   if (options.trail) {
-    pen.lineWidth = 0.07;
+    pen.lineWidth = 0.09; pen.lineCap = "round";
     for (let i = 1; i < options.trail.length; i++) {
       pen.strokeStyle = COLOURS[options.trail[i][2]] || "#555"; pen.beginPath();
       pen.moveTo(options.trail[i - 1][0], options.trail[i - 1][1]); pen.lineTo(options.trail[i][0], options.trail[i][1]); pen.stroke();

@@ -48,6 +48,7 @@ export function makeStick(send, options = {}) {
   function steer(step) {
     const pad = gamepad();
     if (options.clutch) press("pad", Boolean(pad && pad.pressed));
+    if (!pad && stick.device === "gamepad") { stick.device = "keyboard"; stick.f = stick.l = 0; }  // unplugged: no ramp
     if (stick.touch) {
       stick.f = stick.touch.f; stick.l = stick.touch.l; stick.device = "touch";
     } else if (pad && (pad.f || pad.l || pad.pressed || stick.device === "gamepad") && !held.size) {
@@ -106,7 +107,12 @@ export function makeStick(send, options = {}) {
 export function makeMotion(period) {
   let before = null, now = null, at = 0;
   return {
-    put(picture) { before = now && picture.t > now.t ? now : null; now = picture; at = performance.now(); },
+    put(picture) {
+      if (now && picture.t === now.t) { now = picture; return; }  // the same moment, told again
+      before = now && picture.t > now.t ? now : null;
+      now = picture;
+      at = performance.now();
+    },
     pose() {
       if (!now) return null;
       if (!before) return now.pose;
