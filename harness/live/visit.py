@@ -367,8 +367,10 @@ class Visit:
         record = session.record()
         if self.participant.withdrawal() is not None:
             self.farewell = "withdrew"
-        elif record.laps and record.laps[-1].row.end_reason == "interrupted":
-            self.farewell = "ended"
+        elif self.farewell == "finished":
+            broken_off = record.laps and record.laps[-1].row.end_reason == "interrupted"
+            if broken_off or session.done < len(session.stages):
+                self.farewell = "ended"
         return replace(record, events=events_of(read_journal(self._path)))
 
     def _take_up_withdrawal(self) -> None:
