@@ -31,10 +31,11 @@ QUESTIONS = [
 ]  # fmt: skip
 
 
-def looked_at(stage, name):
+def looked_at(stage, name, again=lambda: None):
     """See that nothing has to be scrolled sideways at any width; keep pictures where asked."""
     for device, (width, height) in WIDTHS.items():
         stage.tab.set_viewport_size({"width": width, "height": height})
+        again()
         stage.tab.wait_for_timeout(400 if PICTURES else 60)
         wide = stage.tab.evaluate("document.documentElement.scrollWidth - innerWidth")
         assert wide <= 1, f"{name} on a {device} is {wide} pixels too wide"
@@ -271,11 +272,13 @@ def console_news():
 def test_the_console_shows_and_orders(opened):
     """Every order goes out at once with its reason; what cannot be undone asks once more."""
     stage = opened("experimenter")
-    stage.send("console", **json.loads(json.dumps(console_news(), default=float)))
+    news = json.loads(json.dumps(console_news(), default=float))
+    tell = lambda: stage.send("console", **news)  # noqa: E731
+    tell()
     card = stage.wait("session-P0001")
     assert "P0006" in stage.wait("next-participant").inner_text()
     assert "PAUSED by experimenter" in card.inner_text()
-    looked_at(stage, "console")
+    looked_at(stage, "console", again=tell)
     note = card.get_by_test_id("note-text")
     for name in ("lap-begin", "lap-pause", "lap-resume", "lap-stop", "lap-repeat",
                  "emergency-stop", "stage-skip", "note-save"):  # fmt: skip
