@@ -115,6 +115,8 @@ class LiveStudy:
         for purged in self._purged():
             if self._of(purged):  # the program was stopped while it deleted
                 self.purge(purged)
+        if self._purged():
+            build_tables(self.folder, self.run.digest)
         whole = set(whole_sessions(self.folder, self.run.digest))
         for number in range(1, self.planned + 1):
             name = participant_id(number)
@@ -164,11 +166,12 @@ class LiveStudy:
             (self.folder / WITHDRAWN).mkdir(exist_ok=True)
             text = {"participant": participant, "purged": datetime.now(UTC).date().isoformat()}
             write_whole(self.folder / WITHDRAWN / f"{participant}.json", json.dumps(text).encode())
+            # Files last: what is left of them makes a program that was stopped here purge again.
+            self._forget(participant)
             shutil.rmtree(self.folder / REPORT, ignore_errors=True)
             for path in self._of(participant):
                 shutil.rmtree(path) if path.is_dir() else path.unlink()
             clear_failure(self.folder, participant)
-            self._forget(participant)
             build_tables(self.folder, self.run.digest)
 
     def _of(self, participant: str) -> list[Path]:

@@ -160,8 +160,12 @@ def _identities_lie_apart(study):
 
 def _found(folder, word):
     """Return the files that hold some bytes, in their content or in their name."""
-    files_ = [path for path in folder.rglob("*") if path.is_file()]
-    return [path for path in files_ if word in path.read_bytes() or word.decode() in path.name]
+    found = []
+    for path in folder.rglob("*"):
+        with contextlib.suppress(FileNotFoundError):  # it is being deleted
+            if path.is_file() and (word in path.read_bytes() or word.decode() in path.name):
+                found.append(path)
+    return found
 
 
 def test_who_stops_with_a_promise_of_deletion_leaves_a_number(serve):
