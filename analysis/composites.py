@@ -7,13 +7,13 @@ from protocols.instrument import Instrument, Item
 
 
 def subscales(instrument: Instrument) -> tuple[str, ...]:
-    """Return the subscales that have a score, in order: text has none."""
-    return tuple(dict.fromkeys(i.subscale for i in instrument.items if i.answer != "text"))
+    """Return the subscales that have a score, in order: text and attention checks have none."""
+    return tuple(dict.fromkeys(i.subscale for i in instrument.items if i.scored))
 
 
 def items_of(instrument: Instrument, subscale: str) -> list[Item]:
     """Return the items of a subscale that count in its score."""
-    return [i for i in instrument.items if i.subscale == subscale and i.answer != "text"]
+    return [i for i in instrument.items if i.subscale == subscale and i.scored]
 
 
 def sheets(

@@ -36,7 +36,9 @@ class Exclusions:
 
 
 @dataclass(frozen=True, slots=True)
-class _Lap:
+class CountedLap:
+    """What the rules need to know of a recorded lap; ``counted`` where its collisions are known."""
+
     completed: bool
     collisions: int
     counted: bool
@@ -59,14 +61,14 @@ def exclusions_of(study: Study, laps: pd.DataFrame) -> Exclusions:
     """
     people = study.participants.select(["participant", "excluded", "exclusion_reason"]).to_pylist()
     rules = study.protocol.exclusion
-    has_rules = rules.min_completed_laps is not None or rules.max_collisions is not None
+    has_rules = any(limit is not None for _, limit in rules)
     own = dict(iter(laps.groupby("participant")))
     none = laps.iloc[:0]
     excluded, reasons, applied = [], [], []
     against, unknown = [], []
     for person in people:
         who = person["participant"]
-        driven = _driven(study, own.get(who, none)) if has_rules else []
+        driven = driven_laps(study, own.get(who, none)) if has_rules else []
         met = exclusion_reason(rules, driven)
         if person["excluded"] is not None:
             excluded.append(person["excluded"])
@@ -85,16 +87,34 @@ def exclusions_of(study: Study, laps: pd.DataFrame) -> Exclusions:
     return Exclusions(excluded, reasons, looked, has_rules, (*remarks, *_against(against)))
 
 
-def _driven(study: Study, laps: pd.DataFrame) -> list[_Lap]:
+def driven_laps(study: Study, laps: pd.DataFrame) -> list[CountedLap]:
     """Return what the rules need; contacts are counted in the steps where laps have no number."""
     found = []
-    columns = zip(laps["participant"], laps["lap"], laps["completed"], laps["collisions"],
-                  strict=True)  # fmt: skip
-    for who, lap, completed, counted in columns:
-        contacts = float(counted) if pd.notna(counted) else _contacts(study, who, int(lap))
+    for lap in laps.to_dict("records"):
+        counted = lap["collisions"]
+        contacts = (
+            float(counted)
+            if pd.notna(counted)
+            else _contacts(study, lap["participant"], int(lap["lap"]))
+        )
         known = math.isfinite(contacts)
-        found.append(_Lap(bool(completed), int(contacts) if known else 0, known))
+        pauses = _given(lap["pauses"])
+        found.append(
+            CountedLap(
+                completed=bool(lap["completed"]),
+                collisions=int(contacts) if known else 0,
+                counted=known,
+                end_reason=str(lap["end_reason"]),
+                late_share=_given(lap["late_share"]),
+                input_age_p99_s=_given(lap["input_age_p99_s"]),
+                pauses=None if pauses is None else int(pauses),
+            )
+        )
     return found
+
+
+def _given(value: float | None) -> float | None:
+    return None if value is None or pd.isna(value) else float(value)
 
 
 def _contacts(study: Study, who: str, lap: int) -> float:

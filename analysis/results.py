@@ -15,6 +15,7 @@ from analysis.flow import Flow, participants_flow
 from analysis.frames import StudyFrames, study_frames
 from analysis.groups import GroupResults, group_results
 from analysis.lap_records import LapRecords, read_laps
+from analysis.live_quality import LiveQuality, live_quality
 from analysis.maps import participant_maps, plan_grid
 from analysis.outcome_exclusion import without_the_rule
 from analysis.place import with_place
@@ -22,6 +23,7 @@ from analysis.practice import practice_table
 from analysis.randomness import generator
 from analysis.registration import Registered, registered_plan
 from analysis.roles import first, reference_condition
+from analysis.side_by_side import SideBySide, side_by_side
 from analysis.stats.carry_over import carry_over
 from analysis.stats.map_overlap import map_overlap
 from analysis.stats.mixed_model import lap_time_model
@@ -87,6 +89,10 @@ class StudyResults:
         Demonstrator's and model's assistance maps compared; None unless there are both.
     surveys
         One per instrument.
+    live
+        How good the sessions with living people were; None where there are none.
+    people
+        Living and synthetic people side by side; None where there is one kind only.
     measures, sections, reliability, paper
         Tables; see ``analysis.tables``.
     """
@@ -106,13 +112,17 @@ class StudyResults:
     practice: pd.DataFrame
     overlap: TestResult | None
     surveys: tuple[SurveyResults, ...]
+    live: LiveQuality | None
+    people: SideBySide | None
     measures: pd.DataFrame
     sections: pd.DataFrame
     reliability: pd.DataFrame
     paper: pd.DataFrame
 
 
-def analyse(study: Study, progress: Progress | None = None, jobs: int = 1) -> StudyResults:
+def analyse(
+    study: Study, progress: Progress | None = None, jobs: int = 1, beside: Study | None = None
+) -> StudyResults:
     """Compute everything.
 
     Parameters
@@ -123,13 +133,17 @@ def analyse(study: Study, progress: Progress | None = None, jobs: int = 1) -> St
         Told in a few words what is being done.
     jobs
         Number of processes for the steps of many laps; see ``analysis.processes.in_order``.
+    beside
+        Another study, whose people are shown beside this one's; None for none.
 
     Raises
     ------
     InputError
-        When the table of participants or of laps cannot be used.
+        When the table of participants or of laps cannot be used, or the other study has no
+        condition in common with this one.
     """
     frames = study_frames(study)
+    people = side_by_side(frames, None if beside is None else study_frames(beside))
     records = read_laps(frames, progress, jobs)
     if progress is not None:
         progress("Comparing conditions")
@@ -154,6 +168,8 @@ def analyse(study: Study, progress: Progress | None = None, jobs: int = 1) -> St
         practice=practice_table(frames, contrasts),
         overlap=_overlap(frames, records),
         surveys=surveys,
+        live=live_quality(frames),
+        people=people,
         measures=measures,
         sections=section_table(frames, records),
         reliability=reliability_table(frames, records),
@@ -205,7 +221,7 @@ def _seen(
 
 
 def _survey(frames: StudyFrames, instrument: Instrument) -> SurveyResults:
-    items = [item.id for item in instrument.items if item.answer != "text"]
+    items = [item.id for item in instrument.items if item.scored]
     return SurveyResults(
         instrument=instrument,
         table=survey_table(frames, instrument),

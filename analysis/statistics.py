@@ -52,6 +52,10 @@ def statistics_json(results: StudyResults) -> str:
         "reliability": results.reliability,
         "against_the_paper": results.paper,
     }
+    if results.live is not None:
+        content["live_quality"] = results.live
+    if results.people is not None:
+        content["side_by_side"] = {"times": results.people.times, "answers": results.people.answers}
     return json.dumps(plain(content), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 

@@ -70,6 +70,9 @@ class OrdinalRespondent:
     def _choose(self, question: Question, felt: Mapping[str, float], noise: float) -> Answer:
         if question.answer == "text":
             return None  # the model has no opinion in words
+        if question.expected is not None:  # whoever does not leave it out has read it
+            whole = question.answer == "point"
+            return int(question.expected) if whole else question.expected
         style = self._style
         item = self._loadings[question.instrument, question.item]
         opinion = item.latent(felt, style.liking) + style.acquiescence + noise
@@ -122,7 +125,7 @@ def ordinal_respondent(setup: RespondentSetup) -> OrdinalRespondent:
         When nothing is known about what moves the answers to one of the questions.
     """
     own = read_options("respondent 'ordinal'", OrdinalOptions, setup.options).loadings
-    asked = {(question.instrument, question.item) for question in setup.questions}
+    asked = {(q.instrument, q.item) for q in setup.questions if q.expected is None}
     loadings = {}
     for instrument, item in sorted(asked):
         found = own.get(instrument, {}).get(item) or KNOWN.get(instrument, {}).get(item)

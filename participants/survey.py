@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -36,6 +36,8 @@ class Question:
         Of a number: answers are whole steps from the lowest one; None for any number between.
     ends
         What stands at the two ends of a number's scale; None for nothing.
+    expected
+        Of an attention check: the answer that whoever reads it gives; None for a question.
     """
 
     instrument: str
@@ -48,6 +50,7 @@ class Question:
     highest: float | None = None
     step: float | None = None
     ends: tuple[str, str] | None = None
+    expected: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,3 +106,12 @@ class Respondent(Protocol):
         tuple
             One answer per question, of the question's kind; None where it was left out.
         """
+
+
+def response_times_of(respondent: Any) -> tuple[float | None, ...] | None:
+    """Return how long each of a respondent's last answers took, s; None where that is not known.
+
+    A living one has ``response_times``; simulated ones take no time.
+    """
+    times = getattr(respondent, "response_times", None)
+    return None if times is None else times()

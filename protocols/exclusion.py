@@ -1,7 +1,7 @@
 """Whether a study's own rules exclude a participant."""
 
 from collections.abc import Iterable, Sequence
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from protocols.declared import Exclusion
 
@@ -63,13 +63,39 @@ def exclusion_reason(rules: Exclusion, laps: Iterable[DrivenLap]) -> str | None:
 
 def _poor_link(rules: Exclusion, laps: Sequence[DrivenLap]) -> str | None:
     """Return the rule about a living person's link that applies, in words."""
-    late = max((lap.late_share or 0.0 for lap in laps), default=0.0)
+    late, age, interrupted = link_of(laps)
     if rules.max_late_share is not None and late > rules.max_late_share:
         return f"{late:.1%} of a lap's steps were late; the protocol allows {rules.max_late_share}"
-    age = max((lap.input_age_p99_s or 0.0 for lap in laps), default=0.0)
     if rules.max_input_age_s is not None and age > rules.max_input_age_s:
         return f"inputs were {age:.2f} s old; the protocol allows {rules.max_input_age_s} s"
-    interrupted = sum(bool(lap.pauses) or lap.end_reason in BROKEN_OFF for lap in laps)
     if rules.max_interruptions is not None and interrupted > rules.max_interruptions:
         return f"{interrupted} laps interrupted; the protocol allows {rules.max_interruptions}"
     return None
+
+
+class Link(NamedTuple):
+    """How well a living person was connected, as the rules measure it.
+
+    Attributes
+    ----------
+    late_share
+        Largest share of late steps in a lap, in [0, 1].
+    input_age_s
+        Largest 99th percentile in a lap of the age of the driver's command, s.
+    interruptions
+        How many laps were paused, stopped or disconnected.
+    """
+
+    late_share: float
+    input_age_s: float
+    interruptions: int
+
+
+def link_of(laps: Iterable[DrivenLap]) -> Link:
+    """Return how well a person was connected in some laps; 0 where nothing is known."""
+    known = list(laps)
+    return Link(
+        max((lap.late_share or 0.0 for lap in known), default=0.0),
+        max((lap.input_age_p99_s or 0.0 for lap in known), default=0.0),
+        sum(bool(lap.pauses) or lap.end_reason in BROKEN_OFF for lap in known),
+    )

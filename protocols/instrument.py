@@ -36,6 +36,9 @@ class Item(FileModel):
         Of a number: answers are whole steps from ``lowest``; null for any number between.
     ends
         What stands at the two ends of a number's scale, such as [very low, very high].
+    expected
+        Makes the item an attention check: the point or number that whoever reads it gives, such as
+        2 for "Choose disagree here."; it is no part of any score. Null for a question.
     """
 
     id: ItemId
@@ -48,6 +51,7 @@ class Item(FileModel):
     highest: float | None = None
     step: Annotated[float, Field(gt=0)] | None = None
     ends: tuple[str, str] | None = None
+    expected: float | None = None
 
     @model_validator(mode="after")
     def _bounds_are_of_a_number(self) -> Self:
@@ -62,7 +66,14 @@ class Item(FileModel):
             raise ValueError(f"highest {bounds[1]:g} is no whole number of steps from lowest")
         if self.reverse and self.answer == "number" and len(bounds) < 2:
             raise ValueError("a number is turned within lowest and highest; give both")
+        if self.expected is not None and self.answer == "text":
+            raise ValueError("expected is for an answer that is a point or a number")
         return self
+
+    @property
+    def scored(self) -> bool:
+        """Whether the answer is part of a score: neither text nor an attention check."""
+        return self.answer != "text" and self.expected is None
 
     def on_a_step(self, number: float) -> bool:
         """Tell whether a number is a whole number of steps from the lowest one.
@@ -116,6 +127,11 @@ class Instrument(FileModel):
         yield from self._scale_faults()
         if self.score is not None:
             yield from self._score_faults(self.score)
+        for i, item in enumerate(self.items):
+            low, high = self.range_of(item)
+            if item.expected is not None and not low <= item.expected <= high:
+                message = f"{item.expected:g} is no answer to it; allowed: {low:g} to {high:g}"
+                yield Fault(("items", i, "expected"), message)
         ids = [item.id for item in self.items]
         for i, given in enumerate(ids):
             if given in ids[:i]:
@@ -141,7 +157,7 @@ class Instrument(FileModel):
     def _score_faults(self, score: tuple[float, float]) -> Iterator[Fault]:
         if not score[0] < score[1]:
             yield Fault(("score",), f"{score[0]:g} is not below {score[1]:g}")
-        scored = [item for item in self.items if item.answer != "text"]
+        scored = [item for item in self.items if item.scored]
         unbounded = [item.id for item in scored if item.answer == "number"
                      and None in (item.lowest, item.highest)]  # fmt: skip
         if unbounded:
@@ -176,4 +192,4 @@ class Instrument(FileModel):
         """Return the ids that a comparison's outcome means: an item's own, or a subscale's."""
         if any(item.id == item_or_subscale for item in self.items):
             return (item_or_subscale,)
-        return tuple(i.id for i in self.items if i.subscale == item_or_subscale)
+        return tuple(i.id for i in self.items if i.subscale == item_or_subscale and i.scored)

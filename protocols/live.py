@@ -46,6 +46,22 @@ class Completion(FileModel):
     url: Annotated[str, Field(pattern=r"^https://[^\s\"<>]+$", max_length=500)] | None = None
 
 
+class QuestionPages(FileModel):
+    """How living people are asked what the instruments ask.
+
+    Attributes
+    ----------
+    page
+        Whether a page holds a whole instrument, or one item.
+    required
+        Whether a page can only be left with every question on it answered. Where it can be left
+        otherwise, what was not answered is recorded as missing.
+    """
+
+    page: Literal["instrument", "item"] = "instrument"
+    required: bool = False
+
+
 class LiveSettings(FileModel):
     """What living people see and may do.
 
@@ -71,6 +87,8 @@ class LiveSettings(FileModel):
         What is asked of a participant's machine.
     instructions
         Shown before the first lap, beside the picture of the controls; null for the shipped text.
+    questions
+        How the instruments are asked.
     withdrawal
         What happens to the data of a participant who stops: kept, or purged.
     completion
@@ -89,6 +107,7 @@ class LiveSettings(FileModel):
     on_interruption: OnInterruption = "resume"
     machine_check: MachineCheck = MachineCheck()
     instructions: Text | None = None
+    questions: QuestionPages = QuestionPages()
     withdrawal: Literal["keep", "purge"] = "keep"
     completion: Completion | None = None
     id_parameters: Annotated[

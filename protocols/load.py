@@ -168,17 +168,26 @@ def _referred_course(protocol: StudyProtocol, folder: Path | None) -> Course:
 
 def _with_texts(protocol: StudyProtocol, folder: Path | None) -> StudyProtocol:
     """Return the protocol with every page's text in place of the file that holds it."""
-    texts: dict[str, Text] = {}
-    for field in ("consent", "debrief"):
-        page: Text | None = getattr(protocol, field)
-        if page is None or page.file is None:
-            continue
-        try:
-            text = locate_text(page.file, folder)
-        except InputError as error:
-            raise _ReferenceError(Fault((field, "file"), str(error))) from None
-        texts[field] = page.model_copy(update={"file": None, "text": text})
-    return protocol.model_copy(update=texts)
+    texts = {
+        field: _with_text(page, (field,), folder)
+        for field in ("consent", "debrief")
+        if (page := getattr(protocol, field)) is not None
+    }
+    live, page = protocol.live, protocol.live.instructions
+    if page is not None:
+        read = _with_text(page, ("live", "instructions"), folder)
+        live = live.model_copy(update={"instructions": read})
+    return protocol.model_copy(update={**texts, "live": live})
+
+
+def _with_text(page: Text, where: Location, folder: Path | None) -> Text:
+    if page.file is None:
+        return page
+    try:
+        text = locate_text(page.file, folder)
+    except InputError as error:
+        raise _ReferenceError(Fault((*where, "file"), str(error))) from None
+    return page.model_copy(update={"file": None, "text": text})
 
 
 def _with_hashes(protocol: StudyProtocol, folder: Path | None) -> StudyProtocol:

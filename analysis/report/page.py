@@ -10,6 +10,7 @@ from analysis.report.sections.comparisons import comparison_section
 from analysis.report.sections.data import data_section
 from analysis.report.sections.groups import group_section
 from analysis.report.sections.lap_times import lap_time_section
+from analysis.report.sections.live_quality import live_section
 from analysis.report.sections.maps import map_section
 from analysis.report.sections.measures import measure_section
 from analysis.report.sections.methods import methods_section
@@ -18,6 +19,7 @@ from analysis.report.sections.people import people_section
 from analysis.report.sections.policy import policy_section
 from analysis.report.sections.practice import practice_section
 from analysis.report.sections.registration import registration_section
+from analysis.report.sections.side_by_side import side_section
 from analysis.report.sections.survey import survey_section
 from analysis.results import StudyResults
 
@@ -25,7 +27,9 @@ SECTIONS: tuple[Callable[[StudyResults], Section | None], ...] = (
     answer_section,
     registration_section,
     people_section,
+    live_section,
     lap_time_section,
+    side_section,
     comparison_section,
     practice_section,
     group_section,

@@ -12,9 +12,8 @@ from analysis.statistics import statistics_json
 from analysis.tables.csv_file import csv_file
 from protocols.files.errors import InputError
 from protocols.record.atomic import partial_beside
+from protocols.record.folder import REPORT
 from protocols.record.reader import open_study
-
-REPORT = "report"
 
 
 def write_report(study_dir: Path, progress: Callable[[str], None] | None = None) -> Path:

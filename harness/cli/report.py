@@ -11,6 +11,14 @@ from harness.cli.options import cores
 
 def report(
     study: Annotated[Path, typer.Argument(metavar="DIR", help="A study directory.")],
+    beside: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR",
+            help="Another study, whose people are shown beside this one's: "
+            "synthetic ones beside living ones.",
+        ),
+    ] = None,
 ) -> None:
     """Write the report of a study: one self-contained page, figures, tables and statistics.
 
@@ -23,6 +31,7 @@ def report(
     from analysis.results import analyse
     from protocols.record.reader import open_study
 
+    other = None if beside is None else open_study(beside)
     with progress_line() as tell:
-        page = write_results(analyse(open_study(study), tell, cores()), tell)
+        page = write_results(analyse(open_study(study), tell, cores(), other), tell)
     say(f"Report: {page}")

@@ -1,5 +1,6 @@
 """A seat whose other side is a browser: latest values, never queues of commands."""
 
+import statistics
 import threading
 import time
 from collections.abc import Callable, Mapping
@@ -24,6 +25,7 @@ class _Link:
     offset: float = NO_OFFSET
     round_trip_s: float | None = None
     pings: dict[int, float] = field(default_factory=dict)
+    trips: list[float] = field(default_factory=list)
 
 
 class Mailbox:
@@ -181,6 +183,18 @@ class Mailbox:
         """How long ago the last message from this seat's browser was received, s."""
         return time.monotonic() - self._heard
 
+    @property
+    def median_round_trip_s(self) -> float | None:
+        """Median round trip of this connection, s; None before the first."""
+        link = self._link
+        return statistics.median(link.trips) if link is not None and link.trips else None
+
+    @property
+    def page_kind(self) -> str | None:
+        """What kind of page is open; None while none is."""
+        page = self._page
+        return None if page is None else str(page["kind"])
+
     def connect(self, wake: Callable[[], None]) -> int:
         """Give the seat to a new connection, and return its number; the newest has the seat.
 
@@ -260,7 +274,12 @@ class Mailbox:
         with self._changed:
             if self._link is not None:
                 self._link.pings[number] = time.monotonic()
-        return {"type": "ping", "id": number}
+        trip = self.median_round_trip_s
+        return {
+            "type": "ping",
+            "id": number,
+            "round_trip_ms": None if trip is None else round(1000 * trip, 1),
+        }
 
     def pong(self, number: int) -> None:
         """Take a ping's answer."""
@@ -268,6 +287,7 @@ class Mailbox:
             self._heard = time.monotonic()
             if self._link is not None and number in self._link.pings:
                 self._link.round_trip_s = time.monotonic() - self._link.pings.pop(number)
+                self._link.trips = [*self._link.trips[-49:], self._link.round_trip_s]
 
     def to_send(self, page_sent: int, picture_sent: int) -> tuple[list[dict[str, Any]], int, int]:
         """Return what a connection has not been sent yet, and what it will have been sent then."""

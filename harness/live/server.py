@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import itertools
 import json
 from collections.abc import Callable, Mapping
 from importlib.resources import files
@@ -15,14 +16,16 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from harness.live import messages
-from harness.live.console import carry_out
+from harness.live.console import carry_out, shown
 from harness.live.guard import REFUSED, Guard
 from harness.live.limits import TokenBucket
 from harness.live.mailbox import Mailbox
-from harness.live.study import LiveStudy, as_console
+from harness.live.study import LiveStudy
 from harness.live.tokens import ROLES, Grant
 from harness.live.visit import Visit
 from protocols.course.obstacles import obstacle_boxes
+from protocols.course.schema import Course
+from protocols.live import LiveSettings
 
 TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -42,6 +45,12 @@ HELLO_S, PING_S, CONSOLE_S = 10.0, 1.0, 0.2
 SILENT_S, TURN_S = 2.5, 0.25
 """A browser that does not even answer pings for so long is lost, though its socket is open; and
 how often that is looked at, s. Time in which this process did not run is not counted."""
+
+FIRST_PINGS, FIRST_PING_S = 9, 0.15
+"""A new connection's round trip is measured so often, so quickly: the machine check needs it."""
+
+CONSOLE_WHOLE = 5
+"""Every so many times a console gets what changes slowly, too."""
 
 REPLACED, FLOODED, SILENT = 4001, 4008, 4009
 """Reasons for which a socket is closed; the pages know them."""
@@ -134,7 +143,7 @@ class _Server:
             "type": "welcome",
             "role": "participant",
             "person": person,
-            "course": course_picture(self._study),
+            "course": course_picture(self._study.run.study.course),
             "live": _for_participant(protocol.live.model_dump(mode="json")),
             "period_s": protocol.control_period_s,
         }
@@ -163,8 +172,8 @@ class _Server:
         welcome = {
             "type": "welcome",
             "role": "demonstrator",
-            "course": course_picture(self._study),
-            "live": {"clutch": protocol.live.clutch, "view": protocol.live.demonstrator_view},
+            "course": course_picture(self._study.run.study.course),
+            "live": _for_demonstrator(protocol.live),
             "period_s": protocol.control_period_s,
         }
         await socket.send_text(json.dumps(welcome))
@@ -194,7 +203,8 @@ class _Server:
         return None
 
     async def _experimenter(self, socket: WebSocket) -> None:
-        welcome = {"type": "welcome", "role": "experimenter", "course": course_picture(self._study)}
+        course = course_picture(self._study.run.study.course)
+        welcome = {"type": "welcome", "role": "experimenter", "course": course}
         await socket.send_text(json.dumps(welcome))
         gone = asyncio.Event()
 
@@ -204,9 +214,10 @@ class _Server:
 
         reading = asyncio.create_task(self._read(socket, obey, gone))
         try:
-            while not gone.is_set():
-                news = as_console(self._study)
-                news["trails"] = {name: v.trail()[::4] for name, v in self._study.visits.items()}
+            for n in itertools.count():
+                if gone.is_set():
+                    break
+                news = shown(self._study, whole=n % CONSOLE_WHOLE == 0)
                 await socket.send_text(json.dumps(news, default=float))
                 await _either(gone, CONSOLE_S)
         finally:
@@ -224,12 +235,22 @@ class _Server:
         try:
             await self._feed(socket, seat, gone, lambda: not visit.over)
             if visit.over and not gone.is_set():
-                completion = self._study.run.study.protocol.live.completion
-                bye = None if completion is None else completion.model_dump(mode="json")
-                await socket.send_text(json.dumps({"type": "bye", "completion": bye}))
+                await socket.send_text(json.dumps(self._farewell(visit)))
                 await _close(socket, 1000)
         finally:
             reading.cancel()
+
+    def _farewell(self, visit: Visit) -> dict[str, Any]:
+        """Return the last message to a participant: only who went through gets a code or link."""
+        completion = self._study.run.study.protocol.live.completion
+        if visit.farewell != "finished":
+            completion = None
+        return {
+            "type": "bye",
+            "reason": visit.farewell,
+            "purged": visit.farewell == "withdrew" and self._study.purges,
+            "completion": None if completion is None else completion.model_dump(mode="json"),
+        }
 
     async def _feed(
         self, socket: WebSocket, seat: Mailbox, gone: asyncio.Event, wanted: Callable[[], bool]
@@ -262,10 +283,10 @@ class _Server:
                 fresh, page, picture = seat.to_send(page, picture)
                 for message in fresh:
                     await socket.send_text(json.dumps(message, default=float))
-                if loop.time() - pinged > PING_S:
+                if loop.time() - pinged > (PING_S if pings >= FIRST_PINGS else FIRST_PING_S):
                     pinged, pings = loop.time(), pings + 1
                     await socket.send_text(json.dumps(seat.ping(pings)))
-                await _either(news, TURN_S)
+                await _either(news, TURN_S if pings >= FIRST_PINGS else FIRST_PING_S)
                 news.clear()
         finally:
             seat.disconnect(number)
@@ -308,13 +329,16 @@ def _to_seat(seat: Mailbox | None, message: messages.Received) -> None:
 
 def _for_participant(live: Mapping[str, Any]) -> dict[str, Any]:
     """Return what of the live settings a participant's page needs."""
-    wanted = ("view", "show_lap_time", "machine_check", "instructions")
+    wanted = ("view", "show_lap_time", "machine_check", "instructions", "questions", "withdrawal")
     return {name: live[name] for name in wanted}
 
 
-def course_picture(study: LiveStudy) -> dict[str, Any]:
+def _for_demonstrator(live: LiveSettings) -> dict[str, Any]:
+    return {"clutch": live.clutch, "view": live.demonstrator_view, "shadow": live.shadow}
+
+
+def course_picture(course: Course) -> dict[str, Any]:
     """Return the course as a browser draws it: what stands there, and the gates."""
-    course = study.run.study.course
     boxes = [
         [b.cx, b.cy, b.heading, b.length, b.width, b.height, b.name] for b in obstacle_boxes(course)
     ]

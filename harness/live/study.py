@@ -1,5 +1,6 @@
 """A live study: who takes part next, which sessions are under way, and what is kept of them."""
 
+import contextlib
 import itertools
 import json
 import os
@@ -11,36 +12,40 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
 
 from harness.live.tokens import Tokens
 from harness.live.visit import Visit, visitors_of
 from harness.running.sessions import world_of
 from harness.session.study_run import StudyRun, portable
 from harness.world.world import World
-from protocols.allocation import Enrolled, State, next_allocation
+from protocols.allocation import Allocation, Enrolled, State, next_allocation
 from protocols.files.errors import InputError
-from protocols.order import group_of, in_words, laps_of
 from protocols.record.atomic import write_whole
 from protocols.record.enrolment import (
     WITHDRAWN,
     enrolled,
+    purged,
     read_allocations,
     state_of,
     write_allocations,
 )
+from protocols.record.folder import REPORT
 from protocols.record.header import StudyHeader
 from protocols.record.journal import JOURNALS, journal_path
 from protocols.record.rows import participant_id, participant_number
 from protocols.record.session import SessionRecord, encode
-from protocols.record.sessions import SESSIONS
+from protocols.record.sessions import SESSIONS, SET_ASIDE
 from protocols.record.store import (
     build_tables,
+    clear_failure,
     open_folder,
     whole_sessions,
     write_failure,
     write_session,
 )
+
+IDENTITIES = "identities.sqlite"
+"""In the private folder beside a study: platforms' ids; it is there only where there are any."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +136,10 @@ class LiveStudy:
 
     def resume(self) -> None:
         """Go on with every session that an earlier process left unfinished."""
+        for name in sorted(purged(self.folder)):
+            if self._of(name):  # the program was stopped while it deleted
+                self.purge(name)
+                build_tables(self.folder, self.run.digest)
         for person in self.progress().people:
             begun = journal_path(self.folder, person.participant).is_file()
             if begun and person.state == "under way":
@@ -143,19 +152,29 @@ class LiveStudy:
         people who withdrew or were excluded are given again.
         """
         with self._lock:
-            progress = self.progress()
-            left = ("withdrawn", "excluded") if visitors_of(self.run).participant else ()
-            held = sum(person.state not in left for person in progress.people)
-            if len(progress.active) >= self.seats or held >= self.planned:
+            given = self.next_allocation()
+            if given is None or len(self.progress().active) >= self.seats:
                 return None
-            number = next(n for n in itertools.count(1) if participant_id(n) not in self._people)
-            name, given = participant_id(number), next_allocation(progress.people)
+            name = self.next_participant()
             self.allocations[name] = given
             write_allocations(self.folder, self.allocations)
             self._people[name] = Enrolled(name, given.slot, "under way")
-            visit = self._begin(number, given.slot)
+            visit = self._begin(participant_number(name), given.slot)
         visit.event("program", "allocated", f"slot {given.slot}: {given.reason}")
         return visit
+
+    def next_participant(self) -> str:
+        """Return the id of whoever is enrolled next."""
+        ids = (participant_id(n) for n in itertools.count(1))
+        return next(name for name in ids if name not in self._people)
+
+    def next_allocation(self) -> Allocation | None:
+        """Return the slot of whoever is enrolled next; None when no one more is wanted."""
+        people = self.progress().people
+        left = ("withdrawn", "excluded") if visitors_of(self.run).participant else ()
+        if sum(person.state not in left for person in people) >= self.planned:
+            return None
+        return next_allocation(people)
 
     def without_participants(self) -> None:
         """Begin sessions whose participants are simulated: no link has to be opened for them."""
@@ -168,22 +187,49 @@ class LiveStudy:
         wanted = self.run.study.protocol.live.id_parameters
         kept = {name: value for name, value in ids.items() if name in wanted}
         if kept:
-            with sqlite3.connect(self.private / "identities.sqlite") as database:
+            with (
+                contextlib.closing(sqlite3.connect(self.private / IDENTITIES)) as database,
+                database,
+            ):
                 database.execute("create table if not exists ids (participant, name, value)")
                 rows = [(participant, name, value) for name, value in kept.items()]
                 database.executemany("insert into ids values (?, ?, ?)", rows)
 
     def purge(self, participant: str) -> None:
-        """Delete every byte of a participant's data; a file with the number and date stays."""
-        shutil.rmtree(self.folder / SESSIONS / participant, ignore_errors=True)
-        journal_path(self.folder, participant).unlink(missing_ok=True)
-        if (self.private / "identities.sqlite").exists():
-            with sqlite3.connect(self.private / "identities.sqlite") as database:
+        """Delete every byte of a participant's data; a file with the number and date stays.
+
+        A report that was made before has them in its tables and figures: it is deleted, too.
+        """
+        with self._lock:
+            (self.folder / WITHDRAWN).mkdir(exist_ok=True)
+            text = {"participant": participant, "purged": datetime.now(UTC).date().isoformat()}
+            write_whole(self.folder / WITHDRAWN / f"{participant}.json", json.dumps(text).encode())
+            # Files last: what is left of them makes a program that was stopped here purge again.
+            self._forget(participant)
+            shutil.rmtree(self.folder / REPORT, ignore_errors=True)
+            for path in self._of(participant):
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
+            clear_failure(self.folder, participant)
+            if participant in self._people:
+                person = self._people[participant]
+                self._people[participant] = replace(person, state="withdrawn")
+            build_tables(self.folder, self.run.digest)
+
+    def _of(self, participant: str) -> list[Path]:
+        """Return the files and folders that hold something of a participant."""
+        own = [
+            self.folder / SESSIONS / participant,
+            journal_path(self.folder, participant),
+            *(self.folder / SET_ASIDE).glob(f"{participant}-*"),
+        ]
+        return [path for path in own if path.exists()]
+
+    def _forget(self, participant: str) -> None:
+        path = self.private / IDENTITIES
+        if path.exists():
+            with contextlib.closing(sqlite3.connect(path)) as database, database:
+                database.execute("pragma secure_delete = on")  # else the bytes stay in the file
                 database.execute("delete from ids where participant = ?", (participant,))
-        (self.folder / WITHDRAWN).mkdir(exist_ok=True)
-        text = {"participant": participant, "purged": datetime.now(UTC).date().isoformat()}
-        write_whole(self.folder / WITHDRAWN / f"{participant}.json", json.dumps(text).encode())
-        build_tables(self.folder, self.run.digest)
 
     def close(self) -> None:
         """Hold every session that is under way: the same command resumes it from its journal."""
@@ -207,7 +253,7 @@ class LiveStudy:
         gone = "withdrew" in ends or visit.participant.withdrawal() is not None
         state: State = "withdrawn"
         with self._lock:
-            if not row.consented or (gone and self._purges):
+            if not row.consented or (gone and self.purges):
                 self.purge(visit.name)
             else:
                 files = encode(record, self.run.digest)
@@ -218,7 +264,8 @@ class LiveStudy:
         self._on_change()
 
     @property
-    def _purges(self) -> bool:
+    def purges(self) -> bool:
+        """Whether the data of a participant who stops are deleted."""
         return self.run.study.protocol.live.withdrawal == "purge"
 
     def _failed(self, visit: Visit, trace: str) -> None:
@@ -261,29 +308,3 @@ def _one_world_at_a_time(run: StudyRun) -> Callable[[], World]:
             return world_of(run, shared=False)
 
     return make
-
-
-def as_console(study: LiveStudy) -> dict[str, Any]:
-    """Return what the experimenter's console shows."""
-    progress = study.progress()
-    return {
-        "type": "console",
-        "planned": progress.planned,
-        "finished": list(progress.finished),
-        "people": [_person(study, person) for person in progress.people],
-        "sessions": [visit.snapshot() for visit in tuple(study.visits.values())],
-    }
-
-
-def _person(study: LiveStudy, person: Enrolled) -> dict[str, Any]:
-    """Return a row of the table of orders: what was given, why, and what became of it."""
-    protocol, seed = study.run.study.protocol, study.run.seed
-    given = study.allocations.get(person.participant)
-    return {
-        "participant": person.participant,
-        "state": person.state,
-        "slot": person.slot,
-        "reason": None if given is None else given.reason,
-        "order": in_words(laps_of(protocol, person.slot, seed)),
-        "group": group_of(protocol, person.slot, seed),
-    }

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from harness.live.link_watch import LinkWatch
 from harness.live.mailbox import Mailbox
@@ -32,9 +32,10 @@ from harness.session.study_run import StudyRun
 from harness.world.world import World
 from participants.driver import WithdrewError, kind_of
 from participants.live.demonstrator import LiveDemonstrator
+from participants.live.driver import command_of
 from participants.live.pages import LiveReader, LiveRespondent
 from participants.live.pictures import after_step
-from participants.live.seat import Request
+from participants.live.seat import Input, Request
 from protocols.record.journal import journal_header, read_journal
 from protocols.record.rows import LapRow, participant_id
 from protocols.record.session import SessionRecord
@@ -44,7 +45,11 @@ GRACE_S = 2.0
 """A lap is paused this long after its person's connection was lost: the chair stands by then."""
 
 TRAIL = 4000
-"""Steps that the console's plan shows."""
+"""Steps that the console's plan and curves show."""
+
+Farewell = Literal["finished", "refused", "unfit", "withdrew", "ended"]
+"""How a session ended for its participant: gone through, without consent, on a machine that the
+protocol's rule refuses, by their own wish, or by the experimenter's."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +101,8 @@ class Visit:
     ----------
     participant, demonstrator
         Their seats.
+    farewell
+        How the session ended for its participant; meaningless before it is over.
     abandoned
         Whether an earlier process began the session: the next browser without a seat gets it.
     """
@@ -127,7 +134,8 @@ class Visit:
         self._stage: Stage | None = None
         self._step: Step | None = None
         self._steps = 0
-        self._trail: deque[tuple[float, float, str]] = deque(maxlen=TRAIL)
+        self._trail: deque[tuple[Any, ...]] = deque(maxlen=TRAIL)
+        self.farewell: Farewell = "finished"
         self._late_s = 0.0
         self._paused_by: set[str] = set()
         self._timer: threading.Timer | None = None
@@ -164,9 +172,8 @@ class Visit:
         """Whether a living demonstrator has something to do in the stage at hand."""
         if not self._living.demonstrator or self._stage is None or self._stage.planned is None:
             return False
-        protocol = self._run.study.protocol
-        helped = protocol.conditions[self._stage.planned.condition].assistant == "demonstrator"
-        return self._stage.kind == "lap" and (helped or protocol.live.shadow)
+        shadows = self._run.study.protocol.live.shadow
+        return self._stage.kind == "lap" and (self._helped() or shadows)
 
     # What the experimenter, the participant and the network do --------------------------
 
@@ -194,6 +201,14 @@ class Visit:
         """End the lap, and have it driven once more."""
         self._again = True
         self.stop(actor, "stopped", note)
+
+    def start_lap(self, actor: str, note: str | None = None) -> None:
+        """Begin the lap that the participant is asked to start, or go on with one that is held."""
+        if self.participant.page_kind in {"instructions", "ready"}:
+            self.event(actor, "start", note)
+            self.participant.skip()
+        else:
+            self.resume(actor, note)
 
     def skip(self, actor: str, note: str | None = None) -> None:
         """Go on to the next stage: a lap is stopped, a page stays unanswered."""
@@ -248,6 +263,7 @@ class Visit:
             "participant": self.name,
             "state": self.state,
             "stage": stage.kind if stage else None,
+            "page": self.participant.page_kind,
             "lap": stage.lap if stage else None,
             "condition": stage.planned.condition if stage and stage.planned else None,
             "paused": sorted(self._paused_by),
@@ -266,8 +282,8 @@ class Visit:
             shown |= _driven(step)
         return shown
 
-    def trail(self) -> list[tuple[float, float, str]]:
-        """Return where the chair has been in this lap, and who was in control."""
+    def trail(self) -> list[tuple[Any, ...]]:
+        """Return the steps of this lap: x, y, control, t, p(h), variance, lateness, input's age."""
         return list(self._trail)
 
     def _came(self, role: str, there: bool) -> None:
@@ -303,10 +319,15 @@ class Visit:
         """Keep what the console shows of a step."""
         self._step, self._steps = step, self._steps + 1
         pose = step.result.pose
-        self.participant.show_ahead(after_step(step.result, helped=step.control != "driver"))
-        self._trail.append((round(pose.x, 3), round(pose.y, 3), step.control))
         if step.timing is not None:
             self._late_s = step.timing.late_s
+        self._trail.append(
+            (round(pose.x, 3), round(pose.y, 3), step.control, round(step.result.t, 2),
+             step.model.p_help, step.model.variance, self._late_s, step.input_age_s)
+        )  # fmt: skip
+        self.participant.show_ahead(after_step(step.result, helped=step.control != "driver"))
+        if self._run.study.protocol.live.demonstrator_sees_p_help:
+            self.demonstrator.beside = {**self.demonstrator.beside, "p_help": step.model.p_help}
         if self._replayed:  # an earlier process has recorded what happened in it
             self._replayed -= 1
             return
@@ -342,22 +363,57 @@ class Visit:
             clock=clock, journal=journal, watch=self, repeats=self._repeats,
         )  # fmt: skip
         self.state = "running"
+        self._take_up_withdrawal()
         if self._living.participant and not journal.left and not self._fit():
+            self.farewell = "unfit"
             session.end()
         while not session.over:
             self._stage, self._steps, self._step = session.stages[session.done], 0, None
             planned = self._stage.planned
             practice = planned is not None and planned.until_comfortable
             self.participant.beside = {"practice": practice}
+            self.demonstrator.beside = {"shadow": not self._helped()}
             self._trail.clear()
-            if self._stage.kind == "lap" and not journal.left:
+            again = bool(journal.left)
+            if self._stage.kind == "lap" and not again:
                 self._look_at_machine()
             session.advance()
+            if self._stage.kind == "consent" and not again:
+                self._agreed(agreed=not session.over)
             journal.sync()
         self._stage = None
         self._journal = None  # what comes later is not the session's
         journal.close()
-        return replace(session.record(), events=events_of(read_journal(self._path)))
+        record = session.record()
+        if self.participant.withdrawal() is not None:
+            self.farewell = "withdrew"
+        elif self.farewell == "finished":
+            broken_off = record.laps and record.laps[-1].row.end_reason == "interrupted"
+            if broken_off or session.done < len(session.stages):
+                self.farewell = "ended"
+        return replace(record, events=events_of(read_journal(self._path)))
+
+    def _take_up_withdrawal(self) -> None:
+        """Let a withdrawal stand that an earlier process noted, and could not carry out."""
+        for event in events_of(read_journal(self._path)):
+            if event.event == "withdraw":
+                self.participant.withdraw(event.note or "")
+
+    def _helped(self) -> bool:
+        """Tell whether the demonstrator's help counts in the stage at hand."""
+        planned = self._stage.planned if self._stage else None
+        conditions = self._run.study.protocol.conditions
+        return planned is not None and conditions[planned.condition].assistant == "demonstrator"
+
+    def _agreed(self, *, agreed: bool) -> None:
+        """Record the answer to the consent page, and the version of its text."""
+        consent = self._run.study.protocol.consent
+        version = consent.version if consent is not None else None
+        self.event(
+            "participant", "consent", f"version {version}: {'agreed' if agreed else 'refused'}"
+        )
+        if not agreed and self.participant.withdrawal() is None:
+            self.farewell = "refused"
 
     def _open_journal(self, journal: FileJournal) -> None:
         """Record from here on in a journal, and in it what happened before it could be opened."""
@@ -383,7 +439,9 @@ class Visit:
         except (WithdrewError, LapStoppedError):
             return False
         rate = measured.get("frame_rate")
-        trip = self.participant.round_trip_s
+        trip = self.participant.median_round_trip_s
+        if trip is not None:
+            measured = {**measured, "round_trip_ms": round(1000 * trip, 1)}
         slow = isinstance(rate, int | float) and rate < rules.min_frame_rate
         far = trip is not None and 1000 * trip > rules.max_round_trip_ms
         found = ", ".join(f"{name} {value}" for name, value in sorted(measured.items()))
@@ -446,18 +504,25 @@ class _DemonstratorsSeat:
 
 
 def _driven(step: Step) -> dict[str, Any]:
-    model, demonstrator = step.model, step.demonstrator
+    model = step.model
     return {
         "t": step.result.t,
         "pose": list(step.result.pose),
         "velocity": list(step.result.velocity),
         "intent": list(step.intent),
-        "demonstrator": list(demonstrator.command)
-        if demonstrator and demonstrator.command
-        else None,
+        "demonstrator_stick": _demonstrator_stick(step),
         "control": step.control,
         "p_help": model.p_help,
         "variance": model.variance,
         "input_age_s": step.input_age_s,
         "clearance_m": step.result.clearance_m,
     }
+
+
+def _demonstrator_stick(step: Step) -> list[float] | None:
+    """Return where a demonstrator's stick stands, clutch or not: in m/s and rad/s."""
+    forward, left = step.telemetry.get("demonstrator_v"), step.telemetry.get("demonstrator_w")
+    if forward is not None and left is not None:
+        return list(command_of(Input(forward, left)))
+    command = step.demonstrator.command if step.demonstrator else None
+    return None if command is None else list(command)

@@ -140,7 +140,9 @@ class Tape:
     def broken_off(self, reason: str, note: str | None) -> None:
         """Keep nothing."""
 
-    def answers(self, answers: Sequence[Answer]) -> None:
+    def answers(
+        self, answers: Sequence[Answer], seconds: Sequence[float | None] | None = None
+    ) -> None:
         """Keep nothing."""
 
     def page(self, kind: str, entered: Mapping[str, Answer]) -> None:

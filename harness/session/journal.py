@@ -43,8 +43,10 @@ class Journal(Protocol):
     def broken_off(self, reason: str, note: str | None) -> None:
         """Note that a lap ends before its time."""
 
-    def answers(self, answers: Sequence[Answer]) -> None:
-        """Note the answers to one questionnaire."""
+    def answers(
+        self, answers: Sequence[Answer], seconds: Sequence[float | None] | None = None
+    ) -> None:
+        """Note the answers to one questionnaire, and how long each took where that is known."""
 
     def page(self, kind: str, entered: Mapping[str, Answer]) -> None:
         """Note what was entered on a page."""
@@ -120,9 +122,12 @@ class FileJournal:
         """Note that a lap ends before its time."""
         self._note({"end": [reason, note]})
 
-    def answers(self, answers: Sequence[Answer]) -> None:
-        """Note the answers to one questionnaire."""
-        self._note({"answers": list(answers)})
+    def answers(
+        self, answers: Sequence[Answer], seconds: Sequence[float | None] | None = None
+    ) -> None:
+        """Note the answers to one questionnaire, and how long each took where that is known."""
+        times = {} if seconds is None else {"seconds": list(seconds)}
+        self._note({"answers": list(answers), **times})
 
     def page(self, kind: str, entered: Mapping[str, Answer]) -> None:
         """Note what was entered on a page."""

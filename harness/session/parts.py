@@ -295,4 +295,5 @@ def question(instrument: Instrument, item: Item) -> Question:
         highest=item.highest,
         step=item.step,
         ends=item.ends,
+        expected=item.expected,
     )

@@ -21,7 +21,7 @@ from participants.demonstrator import Demonstrator
 from participants.driver import Driver, WithdrewError
 from participants.pages import Page, PageReader
 from participants.sight import Sight
-from participants.survey import Answer, LapExperience, Question, Respondent
+from participants.survey import Answer, LapExperience, Question, Respondent, response_times_of
 from participants.telemetry import telemetry_of
 from protocols.files.errors import InputError
 from protocols.record.journal import Entry, RecordedJournal, journal_header, refuse_other_journal
@@ -306,6 +306,13 @@ class ReplayedRespondent:
         if len(given) != len(questions):
             raise UnfitEntryError(f"{len(given)} answers to {len(questions)} questions")
         return given
+
+    def response_times(self) -> tuple[float | None, ...] | None:
+        """Return how long each of these answers took; None where that is not known."""
+        if is_next(self._entries, "answers"):
+            seconds = self._entries.left[0].get("seconds")
+            return None if seconds is None else tuple(seconds)
+        return response_times_of(self._then)
 
 
 class ReplayedReader:

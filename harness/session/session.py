@@ -20,6 +20,7 @@ from harness.world.world import World
 from lad.assistant import Learner
 from participants.driver import WithdrewError, kind_of
 from participants.pages import AGREED, Page
+from participants.survey import response_times_of
 from protocols.condition import Condition
 from protocols.course.centreline import Centreline
 from protocols.course.gates import GateCounter
@@ -243,8 +244,10 @@ class Session:
         rng = generator(self._run.seed, self._number, f"lap {lap}/survey")
         asked = [question(*pair) for pair in questions]
         answers = respondent.answer(asked, experience_of(self._laps), rng)
+        seconds = response_times_of(respondent)
         if self._journal is not None:
-            self._journal.answers(answers)
+            self._journal.answers(answers, seconds)
+        times = seconds or (None,) * len(asked)
         self._answers += [
             SurveyRow(
                 participant=participant_id(self._number),
@@ -252,9 +255,10 @@ class Session:
                 condition=condition,
                 instrument=instrument.name,
                 item=item.id,
+                response_time_s=time,
                 **response_fields(item, answer, instrument.points),
             )
-            for (instrument, item), answer in zip(questions, answers, strict=True)
+            for (instrument, item), answer, time in zip(questions, answers, times, strict=True)
         ]
 
     def _participant_row(self) -> ParticipantRow:

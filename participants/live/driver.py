@@ -38,14 +38,12 @@ class LiveDriver:
     ----------
     seat
         Where the person sits.
-    instructions
-        Shown before the first lap; the page's own text when empty.
     """
 
     kind: ParticipantKind = "live"
 
-    def __init__(self, seat: Seat, instructions: str = "") -> None:
-        self._seat, self._instructions = seat, instructions
+    def __init__(self, seat: Seat) -> None:
+        self._seat = seat
         self._instructed = False
         self._sequence = 0
         self._given: Input | None = None
@@ -53,7 +51,7 @@ class LiveDriver:
     def start_lap(self, lap: int, rng: np.random.Generator) -> None:  # noqa: ARG002  # the seam's
         """Wait until the person starts the lap; before the first one, show the instructions."""
         if not self._instructed:
-            self._seat.ask(Request("instructions", {"text": self._instructions}))
+            self._seat.ask(Request("instructions"))
             self._instructed = True
         self._seat.ask(Request("ready"))
 
@@ -104,5 +102,4 @@ def live_driver(setup: DriverSetup) -> LiveDriver:
     InputError
         When there is no seat: a living person cannot be simulated.
     """
-    text = setup.options.get("instructions", "")
-    return LiveDriver(occupied("driver", setup.seat), str(text))
+    return LiveDriver(occupied("driver", setup.seat))

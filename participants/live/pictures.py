@@ -69,10 +69,11 @@ def after_step(result: Moved, *, helped: bool) -> dict[str, Any]:
     }
 
 
-def demonstrator_picture(
-    sight: Sight, stick: Command, *, p_help: float | None = None
-) -> dict[str, Any]:
+def demonstrator_picture(sight: Sight, stick: Command) -> dict[str, Any]:
     """Return what a demonstrator watches: the chair, the participant's stick, the laser.
+
+    Not in it: the condition, the model's p(h), and whether the model helps; ``driving`` tells only
+    whether the demonstrator itself is in control.
 
     Parameters
     ----------
@@ -80,12 +81,15 @@ def demonstrator_picture(
         What there is to see.
     stick
         The participant's command, as limited.
-    p_help
-        The model's p(h = 1 | x), where the protocol lets a demonstrator see it.
     """
-    picture = {
-        **driver_picture(sight),
+    return {
+        "t": float(sight.t),
+        "pose": _pose(sight.pose),
+        "velocity": _pair(sight.velocity),
+        "gates": int(sight.gates_passed),
+        "contact": bool(sight.contact),
+        "driving": sight.helper == "demonstrator",
         "stick": _pair(stick),
         "ranges": [round(float(value), 3) for value in sight.ranges],
+        "fan": [float(sight.bearings[0]), float(sight.bearings[-1]), float(sight.laser)],
     }
-    return picture if p_help is None else {**picture, "p_help": float(p_help)}

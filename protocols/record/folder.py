@@ -20,6 +20,9 @@ from protocols.record.logs import LOGS
 from protocols.record.sessions import SESSIONS, read_manifest, session_folders
 from protocols.resolved import ResolvedStudy
 
+REPORT = "report"
+"""Folder of a study directory with its report: not part of the record."""
+
 _LOCK = ".lock"
 _COMMAND: dict[Origin, str] = {"simulated": "run"}
 _SHOWN = 5

@@ -8,10 +8,12 @@ from typing import Any
 from lad.hyperparameters import LADParameters
 from protocols.files.document import spoken
 from protocols.files.fault import Location
-from protocols.live import LiveSettings
+from protocols.live import LiveSettings, QuestionPages
 from protocols.resolved import ResolvedStudy
 
 _ABSENT = object()
+
+_LATER_LIVE = {"questions": QuestionPages().model_dump(mode="json")}
 
 
 _LATER: Mapping[str, Mapping[str, Any]] = {
@@ -26,13 +28,21 @@ _LATER: Mapping[str, Mapping[str, Any]] = {
         "demographics": [],
         "survey": [],
         "debrief": None,
-        "live": LiveSettings().model_dump(mode="json"),
+        "live": LiveSettings().model_dump(mode="json", exclude=set(_LATER_LIVE)),
     },
+    "live": _LATER_LIVE,
     "consent": {"sharing": False},
     "lap": {"break_s": 0.0, "until_comfortable": False},
     "condition": {"model": "own", "corrections": None, "latent_h": None, "demonstrator": "own"},
     "exclusion": {"max_late_share": None, "max_input_age_s": None, "max_interruptions": None},
-    "item": {"answer": "point", "lowest": None, "highest": None, "step": None, "ends": None},
+    "item": {
+        "answer": "point",
+        "lowest": None,
+        "highest": None,
+        "step": None,
+        "ends": None,
+        "expected": None,
+    },
     "instrument": {"score": None},
     "analysis": {"margin_reason": "", "unfinished": "complete pairs"},
     "limitation": {"left_turn_rad_s": None, "speed_m_s": None, "lag_s": 0.0, "dead_zone": 0.0},
@@ -108,6 +118,7 @@ def _with_later_fields(
         yield condition, "condition"
     yield from ((lap, "lap") for lap in protocol["laps"])
     yield from ((analysis, "analysis") for analysis in protocol["analyses"])
+    yield protocol["live"], "live"
     yield protocol, "protocol"
     for instrument in instruments:
         yield from ((item, "item") for item in instrument["items"])

@@ -1,11 +1,12 @@
 """A session's journal: what was applied, line by line, as it happened.
 
-One JSON object a line. The first names the participant and the study; each other has one key:
+One JSON object a line. The first names the participant and the study; each other is of one kind:
 
 - ``stage``: [index, kind, lap] as a stage begins;
 - ``tick``: what people gave in one control step, see ``TickEntry``;
 - ``end``: [reason, note] where a lap was broken off; ``repeat`` where it is driven once more;
-- ``answers``: the answers to one questionnaire; ``page``: what was entered on a page;
+- ``answers``: the answers to one questionnaire, with ``seconds`` beside it where a living person
+  took that long for each; ``page``: what was entered on a page;
 - ``event``: what happened beside that, see ``protocols.record.rows.EventRow``.
 
 Numbers are written so that they read back exactly.

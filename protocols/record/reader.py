@@ -21,7 +21,7 @@ from protocols.record.header import StudyHeader, read_header
 from protocols.record.logs import failures
 from protocols.record.merge import LAPS_TABLE, PARTICIPANTS_TABLE, SURVEYS_TABLE
 from protocols.record.parquet import read_parquet
-from protocols.record.session import MODEL_FILE, steps_file
+from protocols.record.session import EVENTS_FILE, MODEL_FILE, steps_file
 from protocols.record.sessions import (
     SESSIONS,
     finished_sessions,
@@ -29,6 +29,7 @@ from protocols.record.sessions import (
     session_folders,
 )
 from protocols.record.study_tables import StudyTables
+from protocols.record.tables import EVENT_SCHEMA
 from protocols.study import StudyProtocol
 
 
@@ -104,6 +105,19 @@ class Study:
     @cached_property
     def _foreign(self) -> ForeignSteps | None:
         return ForeignSteps(self._tables) if self.elsewhere else None
+
+    @cached_property
+    def events(self) -> pa.Table:
+        """What happened beside what was applied (``EVENT_COLUMNS``); no row without living people.
+
+        Raises
+        ------
+        InputError
+            When a session's file is damaged (names it).
+        """
+        paths = [path / EVENTS_FILE for path in session_folders(self.folder)]
+        tables = [read_parquet(path, EVENT_SCHEMA.names) for path in paths if path.is_file()]
+        return pa.concat_tables(tables) if tables else EVENT_SCHEMA.empty_table()
 
     def sessions(self) -> tuple[str, ...]:
         """Return the participants with a session folder, sorted."""

@@ -143,6 +143,7 @@ class SurveyRow:
     response: int | None = None
     response_number: float | None = None
     response_text: str | None = None
+    response_time_s: float | None = None
 
 
 def response_fields(item: Item, answer: float | str | None, points: int) -> dict[str, Any]:

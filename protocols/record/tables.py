@@ -107,6 +107,9 @@ SURVEY_COLUMNS: tuple[Column, ...] = (
            since=2),
     Column("response_text", pa.string(), "Answer to an item that asks for text", nullable=True,
            since=2),
+    Column("response_time_s", _F, "From the moment a living person was shown the item to the last "
+           "change of the answer, by the browser's clock", "s", "0 or more", nullable=True,
+           since=2),
 )  # fmt: skip
 
 EVENT_COLUMNS: tuple[Column, ...] = (

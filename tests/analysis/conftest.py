@@ -45,7 +45,9 @@ class MadeUp:
     unanswered
         Questions without a response: participant number and item.
     living
-        Whether living people took part.
+        Whether living people took part: their steps say how good the link was.
+    links
+        Fields of a participant's lap rows about the link, by participant number.
     """
 
     participants: int = 4
@@ -56,6 +58,7 @@ class MadeUp:
     excluded: dict[int, str] = field(default_factory=dict)
     unanswered: frozenset[tuple[int, str]] = frozenset()
     living: bool = False
+    links: dict[int, dict[str, Any]] = field(default_factory=dict)
 
 
 def lap_steps(course: Any, assistant: str, limited: bool, rng: np.random.Generator) -> pd.DataFrame:
@@ -116,6 +119,23 @@ def lap_steps(course: Any, assistant: str, limited: bool, rng: np.random.Generat
     return pd.DataFrame(frame)
 
 
+GOOD_LINK = {"late_share": 0.0, "input_age_p99_s": 0.1, "pauses": 0, "paused_s": 0.0}
+
+
+def link_columns(n: int, number: int, rng: np.random.Generator) -> dict[str, Any]:
+    """Return the columns of a living driver's link; later participants' are slower."""
+    return {
+        "late_s": rng.exponential(0.001 * number, n),
+        "shift_s": np.zeros(n),
+        "input_age_s": rng.uniform(0, 0.1, n),
+        "driver_device": "keyboard",
+        "driver_sent_age_s": rng.uniform(0, 0.04, n),
+        "driver_round_trip_s": rng.normal(0.02 * number, 0.001, n),
+        "driver_frames": np.full(n, 6),
+        "driver_attentive": rng.random(n) > 0.02,
+    }
+
+
 def as_table(steps: pd.DataFrame) -> pa.Table:
     """Return steps as a table of the record's schema; NaN is missing."""
     given = [name for name in STEP_SCHEMA.names if name in steps]
@@ -137,6 +157,8 @@ def session(study: ResolvedStudy, number: int, how: MadeUp, seed: int) -> Sessio
         condition = study.protocol.conditions[planned.condition]
         limited = condition.limitation is not None
         frame = lap_steps(study.course, condition.assistant, limited, rng)
+        if how.living:
+            frame = frame.assign(**link_columns(len(frame), number, rng))
         left = how.withdrew.get(number) == lap
         finished = (number, lap) not in how.unfinished and not left
         helped = (frame["control"] != "driver").to_numpy()
@@ -161,6 +183,7 @@ def session(study: ResolvedStudy, number: int, how: MadeUp, seed: int) -> Sessio
             interventions=int((np.diff(helped.astype(int), prepend=0) == 1).sum()),
             gates_passed=3 if finished else 1,
             seed=int(rng.integers(2**32)),
+            **(how.links.get(number, GOOD_LINK) if how.living else {}),
         )
         laps.append(RecordedLap(row, as_table(frame)))
         if left:

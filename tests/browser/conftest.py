@@ -5,11 +5,18 @@ import math
 import shutil
 import subprocess
 import sys
+import threading
 import time
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from importlib.resources import files
 
 import pytest
 
+from harness.live.guard import HEADERS
+from harness.live.server import PAGES, TYPES, course_picture
 from protocols.course.centreline import Centreline
+from protocols.live import LiveSettings
+from protocols.load import load_course
 
 ARGUMENTS = (
     "--no-sandbox",  # in a container the tests run as root
@@ -169,3 +176,146 @@ def serve_live(tmp_path, until):
     for server in servers:
         server.kill()
         server.wait()
+
+
+LETTERS = {page.removesuffix(".html"): letter for letter, page in PAGES.items()}
+COURSE = load_course("lab-office")
+
+
+class _Files(BaseHTTPRequestHandler):
+    """Gives the pages and scripts that ship, with the headers of the real server."""
+
+    def do_GET(self):
+        name = self.path.partition("?")[0].rpartition("/")[2]
+        letter = self.path.split("/")[1]
+        name = PAGES.get(letter, name)
+        path = files("harness.live").joinpath("static", name)
+        if not path.is_file():
+            self.send_error(404)
+            return
+        content = path.read_bytes()
+        self.send_response(200)
+        for header, value in HEADERS:
+            self.send_header(header, value)
+        self.send_header("content-type", TYPES[f".{name.rpartition('.')[2]}"])
+        self.send_header("content-length", str(len(content)))
+        self.end_headers()
+        self.wfile.write(content)
+
+    def log_message(self, *_):
+        """Say nothing."""
+
+
+class Served:
+    """The files, on loopback, until it is closed."""
+
+    def __init__(self):
+        self._server = ThreadingHTTPServer(("127.0.0.1", 0), _Files)
+        threading.Thread(target=self._server.serve_forever, daemon=True).start()
+        self.origin = f"http://localhost:{self._server.server_port}"
+
+    def close(self):
+        """Stop serving."""
+        self._server.shutdown()
+        self._server.server_close()
+
+
+class Staged:
+    """A role's page in a tab, and the test in the server's place.
+
+    Parameters
+    ----------
+    context
+        A context of the browser.
+    origin
+        Where the files are.
+    role
+        Whose page it is.
+    live
+        The live settings, as a protocol has them.
+    """
+
+    def __init__(self, context, origin, role, **live):
+        self.tab, self.received, self.errors = context.new_page(), [], []
+        self.tab.set_default_timeout(120_000)
+        self.tab.on("pageerror", lambda error: self.errors.append(str(error)))
+        self.tab.on("console", self._hear)
+        self._socket, self._requests = None, 0
+        self._role, self._live = role, LiveSettings(**live).model_dump(mode="json")
+        self.tab.route_web_socket("**/ws", self._open)
+        self.tab.goto(f"{origin}/{LETTERS[role]}/token")
+
+    def _hear(self, message):
+        if "Content Security Policy" in message.text:
+            self.errors.append(message.text)
+
+    def _open(self, socket):
+        self._socket = socket
+        socket.on_message(lambda text: self._take(json.loads(text)))
+
+    def _take(self, message):
+        self.received.append(message)
+        if message["type"] == "hello":
+            live = self._live | {"view": self._view()}
+            self.send("welcome", role=self._role, course=course_picture(COURSE), live=live,
+                      period_s=0.1)  # fmt: skip
+            self.send("ping", id=1, round_trip_ms=12.0)
+
+    def _view(self):
+        return self._live["demonstrator_view" if self._role == "demonstrator" else "view"]
+
+    def send(self, kind, /, **message):
+        """Send what a server would."""
+        self._socket.send(json.dumps({"type": kind, **message}))
+
+    def page(self, kind, **content):
+        """Show a page."""
+        self._requests += 1
+        self.send("page", request=self._requests, kind=kind, **content)
+
+    def answers(self):
+        """Return what was entered, page by page."""
+        return [m["entered"] for m in self.received if m["type"] == "answer"]
+
+    def said(self, kind):
+        """Return the messages of a kind that the page has sent."""
+        return [m for m in self.received if m["type"] == kind]
+
+    def wait(self, name):
+        """Return an element, once it is there."""
+        found = self.tab.get_by_test_id(name)
+        found.wait_for()
+        return found
+
+    def until(self, condition, seconds=120):
+        """Let the page go on until something is true."""
+        for _ in range(10 * seconds):
+            if condition():
+                return
+            self.tab.wait_for_timeout(100)
+        raise AssertionError("it did not happen in time")
+
+
+@pytest.fixture(scope="module")
+def origin():
+    """Return where the pages are served."""
+    served = Served()
+    yield served.origin
+    served.close()
+
+
+@pytest.fixture
+def opened(browser, origin):
+    """Return a function that opens a role's page; no script of it may fail."""
+    contexts, stages = [], []
+
+    def start(role, **live):
+        contexts.append(browser.new_context())
+        stages.append(Staged(contexts[-1], origin, role, **live))
+        stages[-1].until(lambda: stages[-1].said("hello"))
+        return stages[-1]
+
+    yield start
+    for context in contexts:
+        context.close()
+    assert [error for stage in stages for error in stage.errors] == []

@@ -4,7 +4,7 @@ const REPLACED = 4001, REFUSED = 4003;
 export function link(role, handlers) {
   const token = location.pathname.split("/").pop();
   const key = `seat ${token}`;
-  const state = { socket: null, wait: 500, closed: false };
+  const state = { socket: null, wait: 500, closed: false, roundTrip: null };
 
   function open() {
     const scheme = location.protocol === "https:" ? "wss" : "ws";
@@ -20,7 +20,11 @@ export function link(role, handlers) {
     };
     socket.onmessage = (event) => {
       const message = JSON.parse(event.data);
-      if (message.type === "ping") { send({ type: "pong", id: message.id }); return; }
+      if (message.type === "ping") {
+        send({ type: "pong", id: message.id });
+        state.roundTrip = message.round_trip_ms;
+        return;
+      }
       if (message.type === "welcome" && message.person) sessionStorage.setItem(key, message.person);
       const handler = handlers[message.type];
       if (handler) handler(message);
@@ -41,5 +45,6 @@ export function link(role, handlers) {
   }
 
   open();
-  return { send, close: () => { state.closed = true; } };
+  // The round trip is the server's median, in ms; null before it knows one.
+  return { send, roundTrip: () => state.roundTrip, close: () => { state.closed = true; } };
 }

@@ -1,6 +1,6 @@
 // The floor plan: walls, gates, chair, laser, trail. Heading up around the chair, or north up.
 export const CHAIR = { front: 0.62, rear: 0.23, width: 0.55 };
-const COLOURS = { driver: "#1f5fa8", demonstrator: "#b3541e", model: "#2b7a4b" };
+export const COLOURS = { driver: "#1f5fa8", demonstrator: "#b3541e", model: "#2b7a4b" };
 
 export function sized(canvas) {
   const scale = window.devicePixelRatio || 1, w = canvas.clientWidth, h = canvas.clientHeight;
@@ -43,7 +43,7 @@ export function drawPlan(canvas, course, pose, options = {}) {
     pen.setLineDash([0.15, 0.1]); pen.beginPath(); pen.moveTo(...left); pen.lineTo(...right); pen.stroke(); pen.setLineDash([]);
   });
   if (options.trail) {
-    pen.lineWidth = 0.07;
+    pen.lineWidth = 0.09; pen.lineCap = "round";
     for (let i = 1; i < options.trail.length; i++) {
       pen.strokeStyle = COLOURS[options.trail[i][2]] || "#555"; pen.beginPath();
       pen.moveTo(options.trail[i - 1][0], options.trail[i - 1][1]); pen.lineTo(options.trail[i][0], options.trail[i][1]); pen.stroke();
@@ -51,18 +51,18 @@ export function drawPlan(canvas, course, pose, options = {}) {
   }
   if (pose) {
     if (options.ranges) {
-      const n = options.ranges.length, span = 239.4 * Math.PI / 180;
+      const n = options.ranges.length, [right, left, ahead] = options.fan;
       pen.fillStyle = "rgba(31,95,168,.12)"; pen.beginPath();
-      const lx = pose[0] + 0.6 * Math.cos(pose[2]), ly = pose[1] + 0.6 * Math.sin(pose[2]);
+      const lx = pose[0] + ahead * Math.cos(pose[2]), ly = pose[1] + ahead * Math.sin(pose[2]);
       pen.moveTo(lx, ly);
       options.ranges.forEach((range, i) => {
-        const angle = pose[2] - span / 2 + span * i / (n - 1);
+        const angle = pose[2] + right + (left - right) * i / (n - 1);
         pen.lineTo(lx + range * Math.cos(angle), ly + range * Math.sin(angle));
       });
       pen.closePath(); pen.fill();
     }
     pen.save(); pen.translate(pose[0], pose[1]); pen.rotate(pose[2]);
-    pen.fillStyle = options.helped ? "#b3541e" : "#1f5fa8";
+    pen.fillStyle = options.mine ? "#b3541e" : "#1f5fa8";
     pen.fillRect(-CHAIR.rear, -CHAIR.width / 2, CHAIR.front + CHAIR.rear, CHAIR.width);
     pen.fillStyle = "#fff"; pen.beginPath(); pen.moveTo(CHAIR.front - 0.05, 0); pen.lineTo(CHAIR.front - 0.3, 0.15); pen.lineTo(CHAIR.front - 0.3, -0.15); pen.fill();
     pen.restore();
@@ -70,8 +70,13 @@ export function drawPlan(canvas, course, pose, options = {}) {
   pen.restore();
 }
 
-export function drawStick(pen, x, y, size, pair, colour) {
-  pen.strokeStyle = "#cfd6df"; pen.lineWidth = 1; pen.strokeRect(x - size, y - size, 2 * size, 2 * size);
+// A stick's square: `pair` is the command in m/s and rad/s, full deflection 0.7 and 0.5.
+export function drawStick(pen, x, y, size, pair, colour, name) {
+  pen.fillStyle = "rgba(255,255,255,.85)"; pen.fillRect(x - size, y - size, 2 * size, 2 * size);
+  pen.strokeStyle = "#8d99a8"; pen.lineWidth = 1; pen.strokeRect(x - size, y - size, 2 * size, 2 * size);
+  pen.beginPath(); pen.moveTo(x - size, y); pen.lineTo(x + size, y); pen.moveTo(x, y - size); pen.lineTo(x, y + size); pen.stroke();
   pen.fillStyle = colour; pen.beginPath();
   pen.arc(x - size * (pair[1] / 0.5), y - size * (pair[0] / 0.7), 5, 0, 7); pen.fill();
+  pen.fillStyle = "#1d2530"; pen.font = "11px system-ui, sans-serif"; pen.textAlign = "center";
+  pen.fillText(name, x, y - size - 4); pen.textAlign = "start";
 }

@@ -1,6 +1,7 @@
 // First-person view in WebGL: the room's boxes, gates, chevrons on the floor, one's own footplates.
-// Eye at 1.2 m, looking at the floor ahead; vertical field of view 84 degrees.
-const EYE = 1.2, AIM_AHEAD = 1.6, AIM_HEIGHT = 0.25, FOV = 84 * Math.PI / 180, NEAR = 0.05, FAR = 60;
+// Eye at 1.2 m, looking at the floor ahead; vertical field of view 84 degrees, more on a narrow screen:
+// there 62 degrees across are seen, or the next turn would not be.
+const EYE = 1.2, AIM_AHEAD = 1.6, AIM_HEIGHT = 0.25, FOV = 84 * Math.PI / 180, ACROSS = 62 * Math.PI / 180, NEAR = 0.05, FAR = 60;
 const VERTEX = `attribute vec3 p; attribute vec3 n; attribute vec3 c; uniform mat4 m; varying vec3 v; varying float d;
 void main() { gl_Position = m * vec4(p, 1.0); float light = 0.78 + 0.22 * dot(n, normalize(vec3(0.35, 0.5, 0.8)));
  v = c * light; d = gl_Position.w; }`;
@@ -104,7 +105,7 @@ function chairMesh() {
 }
 
 function perspective(aspect) {
-  const f = 1 / Math.tan(FOV / 2), r = 1 / (NEAR - FAR);
+  const f = 1 / Math.max(Math.tan(FOV / 2), Math.tan(ACROSS / 2) / aspect), r = 1 / (NEAR - FAR);
   return [f / aspect, 0, 0, 0, 0, f, 0, 0, 0, 0, (FAR + NEAR) * r, -1, 0, 0, 2 * FAR * NEAR * r, 0];
 }
 
