@@ -99,7 +99,8 @@ def serve_study(
             say("Over plain http a browser gives pages of other machines no gamepad; keyboard and "
                 "touch work.")  # fmt: skip
         server = web_server(study, frozenset(hosts), frozenset(origins))
-        asyncio.run(_serve(server, listener, study))
+        with contextlib.suppress(KeyboardInterrupt):  # Ctrl-C is how an experimenter ends a day
+            asyncio.run(_serve(server, listener, study))
         return len(study.progress().finished)
 
 

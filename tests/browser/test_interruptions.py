@@ -16,7 +16,10 @@ PROTOCOL = {
         "respondent": None,
     },
     "conditions": {"free": {}},
-    "laps": [{"condition": "free", "practice": True, "until_comfortable": True}],
+    "laps": [
+        {"condition": "free", "practice": True, "until_comfortable": True},
+        {"condition": "free", "time_limit_s": 2},
+    ],
 }
 
 # What a test may change in a page: whether it is hidden or has the focus, and a gamepad.
@@ -85,6 +88,7 @@ def test_a_person_who_is_not_there_stands(serve_live, visit, until):
     again.get_by_test_id("driving").wait_for(timeout=60_000)
     until(lambda: not moves(again))
     again.get_by_test_id("comfortable").click(timeout=60_000)
+    again.get_by_test_id("lap-start").click(timeout=60_000)
     assert server.wait(60) == 0
 
     session = folder / "sessions" / "P0001"

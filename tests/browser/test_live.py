@@ -187,4 +187,4 @@ def test_who_refuses_leaves_nothing(live, visit, until):
     visit(links["participant"]).get_by_test_id("check-continue").click(timeout=120_000)
     assert [path.name for path in (folder / "journals").iterdir()] == ["P0002.jsonl"]
     server.send_signal(signal.SIGINT)
-    assert server.wait(60) == 0
+    assert server.wait(60) == 0, (folder.parent / "said").read_text()

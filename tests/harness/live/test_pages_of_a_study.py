@@ -225,7 +225,8 @@ def test_the_console_begins_a_lap_and_tells_who_is_next(serve):
     participant.until(is_page("ready"))
     before = shown(served.study, whole=True)["outlook"]
     assert before["next"] == {
-        "participant": "P0002", "group": None, "laps": ["secret-name", "other-name"], "free": False,
+        "participant": "P0002", "reason": "the next slot", "group": None,
+        "laps": ["secret-name", "other-name"], "free": False,
     }  # fmt: skip
     order = "secret-name > other-name"
     assert before["quota"] == [
