@@ -68,7 +68,8 @@ def _plain(array: pa.ChunkedArray, wanted: pa.DataType, *, clock: bool) -> pa.Ch
 
 
 def _counts_time(kind: pa.DataType) -> bool:
-    return pa.types.is_integer(kind) or pa.types.is_timestamp(kind) or pa.types.is_duration(kind)
+    kinds = (pa.types.is_integer, pa.types.is_timestamp, pa.types.is_duration)
+    return any(is_one(kind) for is_one in kinds)
 
 
 def _seconds_or_counts(array: pa.ChunkedArray) -> pa.ChunkedArray:
