@@ -23,10 +23,14 @@ def _laps(frames: StudyFrames) -> Iterator[str]:
     laps = counted_laps(study, frames.participants["participant"])
     yield from _conditions(frames, laps, "lap")
     timed = frames.conditions
-    unfinished = laps[~laps["completed"].astype(bool) & laps["condition"].isin(timed)]
-    times = int(unfinished["lap_time_s"].notna().sum())
+    laps = laps[laps["condition"].isin(timed)]
+    finished, has_time = laps["completed"].astype(bool), laps["lap_time_s"].notna()
+    times = int((~finished & has_time).sum())
     if times:
         yield f"{_number(times, 'lap time')} of laps that were not finished"
+    untimed = int((finished & ~has_time).sum())
+    if untimed:
+        yield f"{_number(untimed, 'finished lap')} without a lap time"
 
 
 def _answers(frames: StudyFrames) -> Iterator[str]:

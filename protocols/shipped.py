@@ -11,6 +11,7 @@ from protocols.files.errors import InputError
 from protocols.files.suggestion import allowed
 
 Kind = Literal["studies", "courses", "instruments", "mappings"]
+_KINDS: tuple[Kind, ...] = ("studies", "courses", "instruments", "mappings")
 _WORD = {
     "studies": "protocol",
     "courses": "course",
@@ -97,6 +98,22 @@ def locate(kind: Kind, name_or_path: str, folder: Path | None = None) -> Source:
     raise InputError(f"{what}; {allowed(path.stem, shipped, ['a file'])}")
 
 
+def locate_any(name_or_path: str) -> Source:
+    """Find a file of any kind by a shipped name or a path; a shipped name wins.
+
+    Raises
+    ------
+    InputError
+        When there is no such file; lists the protocols that ship.
+    """
+    return _shipped(name_or_path) or locate("studies", name_or_path)
+
+
+def _shipped(name: str) -> Source | None:
+    kind = next((kind for kind in _KINDS if name in shipped_names(kind)), None)
+    return None if kind is None else locate(kind, name)
+
+
 def locate_text(name: str, folder: Path | None) -> str:
     """Return a text file's content; its path starts in a folder, or in the current one.
 
@@ -129,11 +146,10 @@ def shipped_text(name: str) -> str:
     InputError
         When no shipped file has this name; lists the names there are.
     """
-    kinds: tuple[Kind, ...] = ("studies", "courses", "instruments", "mappings")
-    for kind in kinds:
-        if name in shipped_names(kind):
-            return locate(kind, name).text().decode()
-    every = [shipped for kind in kinds for shipped in shipped_names(kind)]
+    source = _shipped(name)
+    if source is not None:
+        return source.text().decode()
+    every = [shipped for kind in _KINDS for shipped in shipped_names(kind)]
     raise InputError(
         f"no shipped protocol, course or instrument is named {name!r}; {allowed(name, every)}"
     )

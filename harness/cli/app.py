@@ -44,7 +44,8 @@ app = typer.Typer(
         "Run, simulate and analyse assistance studies on a simulated smart wheelchair.\n\n"
         "Start with `lad-study run`: the four-lap study with twelve synthetic participants, "
         "from the first lap to a report that opens in a browser.\n\n"
-        "Exit codes: 0 done; 1 something failed; 2 faulty input, with one line: where, "
+        "Exit codes: 0 done; 1 something failed, or nobody finished a lap of some condition; "
+        "2 faulty input, with one line: where, "
         "what, and what is allowed."
     ),
 )

@@ -50,7 +50,8 @@ def run(
 
     Without arguments: the four-lap study, twelve participants, seed 0. A run that was stopped
     goes on where it was when the same command is given again. A protocol's own parts are code:
-    they run with --trust only, and after that until their file changes.
+    they run with --trust only, and after that until their file changes. Exit code 1 when a session
+    failed, or when nobody finished a lap of some condition.
 
     Example: lad-study run four-lap --participants 24 --seed 3 --out studies/pilot
     """
@@ -72,13 +73,13 @@ def run(
         say(f"{outcome.found} of {outcome.planned} sessions were there already.")
     if not no_report and outcome.found + outcome.finished:
         _report(folder)
-    if outcome.found + outcome.finished:
-        _say_what_nobody_finished(folder)
+    unfinished = _what_nobody_finished(folder) if outcome.found + outcome.finished else ()
+    for sentence in unfinished:
+        complain(sentence)
     say(f"Study:  {folder}")
     if outcome.failed:
         complain(_failures(folder, outcome))
-        return 1
-    return 0
+    return 1 if outcome.failed or unfinished else 0
 
 
 def _run(
@@ -138,12 +139,11 @@ def _failures(folder: Path, outcome: "Outcome") -> str:
     )
 
 
-def _say_what_nobody_finished(folder: Path) -> None:
+def _what_nobody_finished(folder: Path) -> tuple[str, ...]:
     from analysis.unfinished import nobody_finished
     from protocols.record.reader import open_study
 
-    for unfinished in nobody_finished(open_study(folder)):
-        complain(unfinished.sentence)
+    return tuple(found.sentence for found in nobody_finished(open_study(folder)))
 
 
 def _report(folder: Path) -> None:

@@ -21,6 +21,11 @@ def validate(
 
     Example: lad-study validate my-study.yaml
     """
+    from protocols.shipped import locate_any
+
+    # What is no file of ours is refused before the planner and its compiler are imported.
+    locate_any(file).document()
+
     from analysis.attainable import out_of_reach
     from protocols.balance import balance_in_words
     from protocols.course.schema import Course

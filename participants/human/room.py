@@ -8,6 +8,7 @@ import numpy as np
 
 from lad.compiled import compiled
 from participants.human.corners import sharp_corners
+from participants.human.passages import check_passages
 from participants.planning.surroundings import known_raster
 from protocols.course.occupancy import Occupancy
 from protocols.course.route import Route, plan_route
@@ -60,5 +61,13 @@ def _free(distance: Any, origin: Any, cell: float, line: Any, looks: int) -> Any
 
 @lru_cache(maxsize=16)
 def known_room(course: Course) -> KnownRoom:
-    """Return a course as a person knows it, worked out once for each course."""
-    return KnownRoom(plan_route(course), known_raster(course))
+    """Return a course as a person knows it, worked out once for each course.
+
+    Raises
+    ------
+    InputError
+        When it has a passage in which people give up.
+    """
+    route = plan_route(course)
+    check_passages(course, route)
+    return KnownRoom(route, known_raster(course))

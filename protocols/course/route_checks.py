@@ -19,9 +19,9 @@ if TYPE_CHECKING:  # a route is checked before it is handed out
     from protocols.course.route import Route
 
 NARROWEST = 0.78
-"""Width of the narrowest opening that counts as a way, m. The drivers that ship were measured to
-pass a doorway of 0.80 m and not one of 0.75 m: they know the chair by discs and a laser scan's
-distances by cells."""
+"""Width of the narrowest opening that counts as a way, m. The autonomous driver was measured to
+pass one of 0.80 m, short or 4 m long, and not a doorway of 0.75 m: it knows the chair by discs and
+a laser scan's distances by cells. People need more (`participants/human/passages.py`)."""
 
 ASIDE = np.arange(-0.15, 0.1501, 0.005)
 """Where beside the route the middle of an opening may be, m."""
@@ -67,9 +67,7 @@ def _narrow(course: Course, raster: Occupancy, route: "Route") -> Iterator[tuple
     )
     if not len(doubtful):
         return
-    normal = np.column_stack([-np.sin(route.headings), np.cos(route.headings)])[doubtful]
-    across = route.points[doubtful][:, None, :] + ASIDE[None, :, None] * normal[:, None, :]
-    width = 2 * clearance(course, across.reshape(-1, 2)).reshape(len(doubtful), -1).max(axis=1)
+    width = _widths(course, route, doubtful)
     worst = int(np.argmin(width))
     if width[worst] < NARROWEST - 0.01:
         x, y = route.points[doubtful[worst]]
@@ -80,6 +78,21 @@ def _narrow(course: Course, raster: Occupancy, route: "Route") -> Iterator[tuple
                 f"least {NARROWEST:.2f} m, so that a chair of {WIDTH:.2f} m can be driven through"
             ),
         )
+
+
+def way_widths(course: Course, route: "Route") -> NDArray[np.float64]:
+    """Return how wide the way is at each point of a route, to the last gate, shape (n,), m."""
+    return _widths(course, route, np.flatnonzero(route.arcs <= route.gate_arcs[-1]))
+
+
+def _widths(course: Course, route: "Route", at: NDArray[np.intp]) -> NDArray[np.float64]:
+    """Return the room across some of a route's points: twice that of the best place beside each."""
+    normal = np.column_stack([-np.sin(route.headings), np.cos(route.headings)])[at]
+    across = route.points[at][:, None, :] + ASIDE[None, :, None] * normal[:, None, :]
+    widest: NDArray[np.float64] = 2 * clearance(course, across.reshape(-1, 2)).reshape(
+        len(at), -1
+    ).max(axis=1)
+    return widest
 
 
 def clearance(course: Course, points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -7,7 +7,7 @@ from typing import Any
 
 from protocols.files.errors import InputError
 from protocols.files.fault import Fault, Location
-from protocols.files.nodes import MAX_DEPTH, MAX_VALUES, Node, compose, too_deep
+from protocols.files.nodes import MAX_DEPTH, Node, compose, too_deep
 from protocols.files.scalars import MERGE, TAG, ScalarError, scalar_value, short
 
 MAX_BYTES = 2_000_000
@@ -116,14 +116,10 @@ class _Unfolding:
     source: str
     version: tuple[int, int] | None
     lines: dict[Location, int] = field(default_factory=dict)
-    count: int = 0
     open: set[int] = field(default_factory=set)
 
     def value(self, node: Node, where: Location) -> Any:
         self.lines.setdefault(where, node.line)
-        self.count += 1
-        if self.count > MAX_VALUES:
-            raise self.fault(node, where, f"expands to more than {MAX_VALUES} values")
         if node.text is not None:
             return self.scalar(node, where)
         if id(node) in self.open:

@@ -26,6 +26,8 @@ class Node:
     line: int
     text: str | None = None
     items: list["Node"] = field(default_factory=list)
+    values: int = 1
+    """How many values it stands for, itself and repeated ones included."""
 
 
 @dataclass(slots=True)
@@ -59,7 +61,15 @@ class _Composer:
             if len(self.open) > MAX_DEPTH:
                 raise too_deep(self.source, _line(event))
         elif isinstance(event, yaml.SequenceEndEvent | yaml.MappingEndEvent):
-            self.open.pop()
+            self.close(self.open.pop())
+
+    def close(self, node: Node) -> None:
+        """Count what a list or mapping unfolds to: an anchor's values as often as it is used."""
+        values = node.items[1::2] if node.tag == f"{TAG}map" else node.items
+        node.values += sum(value.values for value in values)
+        if node.values > MAX_VALUES:
+            message = f"expands to more than {MAX_VALUES} values"
+            raise InputError(f"{self.source}:{node.line}: {message}")
 
     def add(self, node: Node, event: Any) -> None:
         self.count += 1

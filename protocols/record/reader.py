@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.compute as pc
 
@@ -237,7 +238,8 @@ def off_scale(study: Study) -> Iterator[tuple[int, str]]:
         off = pc.or_(pc.less(given, 1), pc.greater(given, instrument.points))
         wrong = pc.fill_null(pc.and_(pc.equal(answers["instrument"], instrument.name), off), False)
         allowed = f"1 to {instrument.points} ({instrument.name}), or nothing"
-        for row in pc.indices_nonzero(wrong).to_pylist():
+        # Not pyarrow's indices_nonzero: on a table without a row, pyarrow 17 ends the process.
+        for row in np.flatnonzero(wrong.to_numpy()).tolist():
             where = f"{study.folder / SURVEYS_TABLE}: column response"
             yield row, f"{where}: {given[row].as_py()} in row {row}; allowed: {allowed}"
 

@@ -20,13 +20,9 @@ def test_a_finished_study_is_whole(undisturbed_study, start):
 
 @pytest.mark.slow
 def test_another_seed_gives_other_bytes(run_quick, record, undisturbed, tmp_path):
-    """Every table and every lap differs, and so does every model that could have learnt.
-
-    Its laps are too short to be finished, and the run says so.
-    """
+    """Every table and every lap differs, and so does every model that could have learnt."""
     ended = run_quick(tmp_path / "other", "--seed", 1, "--participants", 2)
     assert ended.code == 0, ended.err
-    assert "Nobody finished a lap of baseline (2 begun): 2 ended by the time limit" in ended.err
     other = record(tmp_path / "other")
     assert {"sessions/P0002/model.npz", "laps.parquet"} < other.keys() < undisturbed.keys()
     same = {name for name in other if other[name] == undisturbed[name]}

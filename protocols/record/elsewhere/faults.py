@@ -5,8 +5,10 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pyarrow as pa
+import pyarrow.compute as pc
 
 from protocols.files.errors import InputError
+from protocols.laps import WHOLE_SESSION
 from protocols.record.elsewhere.people import strangers
 from protocols.record.elsewhere.placement import said_of
 from protocols.record.merge import LAPS_TABLE, SURVEYS_TABLE
@@ -43,6 +45,10 @@ def _answers(study: Study) -> Iterator[str]:
     path = study.folder / SURVEYS_TABLE
     known = {instrument.name for instrument in study.instruments}
     yield from _unknown(answers, "instrument", known, path)
+    for instrument in study.instruments:
+        own = answers.filter(pc.equal(answers["instrument"], instrument.name))
+        items = set(instrument.ids(assisted=True))
+        yield from _unknown(own, "item", items, path)
     for _, fault in off_scale(study):
         yield fault
 
@@ -54,7 +60,10 @@ def _strangers(study: Study, rows: pa.Table, name: str) -> Iterator[str]:
     )
     if n:
         yield f"{path}: {n} rows of people who are not in participants.parquet ({names})"
-    yield from _unknown(rows, "condition", set(study.protocol.conditions), path)
+    known = set(study.protocol.conditions)
+    if name == SURVEYS_TABLE:
+        known.add(WHOLE_SESSION)
+    yield from _unknown(rows, "condition", known, path)
 
 
 def _unknown(rows: pa.Table, column: str, known: set[str], path: Path) -> Iterator[str]:

@@ -48,8 +48,8 @@ def _plain(array: pa.ChunkedArray, wanted: pa.DataType, *, clock: bool) -> pa.Ch
     if pa.types.is_dictionary(array.type):
         array = array.cast(array.type.value_type)
     given = array.type
-    if clock and (pa.types.is_timestamp(given) or pa.types.is_duration(given)):
-        return pc.divide(array.cast(pa.int64()).cast(pa.float64()), _PER_SECOND[given.unit])
+    if clock and _counts_time(given):
+        return _seconds_or_counts(array)
     if pa.types.is_nested(given):
         raise ValueError("several values in one place")
     if pa.types.is_decimal(given):
@@ -65,6 +65,22 @@ def _plain(array: pa.ChunkedArray, wanted: pa.DataType, *, clock: bool) -> pa.Ch
     elif pa.types.is_boolean(given) and not pa.types.is_string(wanted):
         raise ValueError("a truth value is no number")
     return array
+
+
+def _counts_time(kind: pa.DataType) -> bool:
+    kinds = (pa.types.is_integer, pa.types.is_timestamp, pa.types.is_duration)
+    return any(is_one(kind) for is_one in kinds)
+
+
+def _seconds_or_counts(array: pa.ChunkedArray) -> pa.ChunkedArray:
+    """Return dates and durations in seconds, and whole numbers of an unknown unit as floats.
+
+    Nanoseconds since 1970 have more digits than a float: they are known to 256 ns then.
+    """
+    counts = array.cast(pa.int64()).cast(pa.float64(), safe=False)
+    if pa.types.is_integer(array.type):
+        return counts
+    return pc.divide(counts, _PER_SECOND[array.type.unit])
 
 
 def _all(truths: pa.ChunkedArray) -> bool:

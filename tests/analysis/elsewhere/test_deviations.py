@@ -306,6 +306,9 @@ DEVIATIONS: dict[str, Deviation] = {
     # Ranges
     "no time at all": Deviation(
         _values("laps", "lap_time_s", lambda _: 0.0), "refused", "allowed: above 0"),
+    "no lap time anywhere": Deviation(
+        _values("laps", "lap_time_s", lambda _: None, pa.float64()), "changed",
+        "finished laps without a lap time"),
     "an endless lap": Deviation(
         _one("laps", "lap_time_s", lambda _: float("inf")), "refused", "allowed: above 0"),
     "fewer than no collisions": Deviation(
@@ -348,6 +351,12 @@ DEVIATIONS: dict[str, Deviation] = {
     "t in ns": Deviation(_times(lambda t: 1e9 * t), "same", "t_s is in nanoseconds"),
     "t since 1970": Deviation(
         _times(lambda t: t + _EPOCH.timestamp()), "same", "t_s counts from the time of day"),
+    "t since 1970 in whole ns": Deviation(
+        _times(lambda t: ((t + _EPOCH.timestamp()) * 1e9).astype(np.int64)), "same",
+        "t_s is in nanoseconds"),
+    "t as date and time in ns": Deviation(
+        _steps("t_s", lambda table: _stamps(table, None).cast(pa.timestamp("ns"))), "same",
+        "the time of day"),
     "t since 1970 in ms": Deviation(
         _times(lambda t: 1e3 * (t + _EPOCH.timestamp())), "same", "t_s is in milliseconds"),
     "t of the session": Deviation(

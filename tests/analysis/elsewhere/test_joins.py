@@ -171,3 +171,16 @@ def test_another_studys_figures_are_not_beside_it(written):
     assert results.paper.empty
     texts = [block.text for block in people_section(results).blocks if hasattr(block, "text")]
     assert any(text.startswith("Positions of 1 lap do not fit the course") for text in texts)
+
+
+def test_answers_of_unknown_items_are_faults_and_those_of_the_whole_session_are_not(written):
+    """`check` says of answers what the page says."""
+
+    def odd(study):
+        answers = study.tables["surveys"].to_pylist()
+        answers[0]["item"] = "q99"
+        after = answers[1] | {"lap": -1, "condition": "(session)"}
+        study.tables["surveys"] = pa.Table.from_pylist([*answers, after])
+
+    (fault,) = check_study(written(odd))
+    assert fault.endswith("surveys.parquet: 1 rows of item 'q99'; allowed: q1")

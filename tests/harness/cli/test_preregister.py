@@ -40,7 +40,9 @@ def test_a_study_follows_its_registration_and_no_other_plan(lad_study, tmp_path)
     assert refused.code == 2
     assert "stops at 2" in refused.err
     run = ("run", "short.yaml", "--registration", "plan", "--jobs", "1", "--out", "study")
-    assert lad_study(*run).code == 0
+    ran = lad_study(*run)
+    assert ran.code == 1
+    assert "Nobody finished a lap of one (2 begun)" in ran.err
     digest = read_registration(tmp_path / "plan").digest
     page = (tmp_path / "study" / "report" / "index.html").read_text(encoding="utf-8")
     assert f"plan {digest[:12]}" in page

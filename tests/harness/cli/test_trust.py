@@ -13,6 +13,9 @@ cohort:
 laps: [{condition: baseline, time_limit_s: 0.3}]
 """
 
+RAN = 1
+"""The exit code of a run: its lap is too short to be finished, and the run says so."""
+
 DRIVER = """\
 from pathlib import Path
 from lad.command import Command
@@ -93,10 +96,11 @@ def test_run_says_which_code_and_runs_it_once_it_is_trusted(lad_study, study, tm
     assert not (tmp_path / "a").exists()
 
     allowed = lad_study(*run, "a", "--trust")
-    assert allowed.code == 0, allowed.err
+    assert allowed.code == RAN, allowed.err
     assert allowed.err.splitlines()[0] == f"Runs code that is not this program's: {file}"
+    assert "Nobody finished a lap of baseline (1 begun)" in allowed.err
     assert proof.exists()
-    assert lad_study(*run, "b").code == 0
+    assert lad_study(*run, "b").code == RAN
 
     proof.unlink()
     file.write_text(DRIVER.replace("0.1", "0.2"))
@@ -112,7 +116,7 @@ def test_run_says_which_code_and_runs_it_once_it_is_trusted(lad_study, study, tm
 def test_the_same_content_elsewhere_is_not_trusted(lad_study, study, tmp_path):
     """Trust is given to a file."""
     study("slow:slow")
-    assert lad_study("run", "mine/own.yaml", "--no-report", "--out", "a", "--trust").code == 0
+    assert lad_study("run", "mine/own.yaml", "--no-report", "--out", "a", "--trust").code == RAN
     (tmp_path / "mine").rename(tmp_path / "yours")
     assert lad_study("run", "yours/own.yaml", "--no-report", "--out", "b").code == 2
 

@@ -152,7 +152,7 @@ def test_anchors_cannot_unfold_without_end():
     """A few lines of nested anchors that stand for billions of values are refused quickly."""
     lines = ["a0: &a0 [x, x, x, x, x, x, x, x, x, x]"]
     lines += [f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 10)}]" for i in range(1, 10)]
-    assert "expands to more than" in _refused("\n".join(lines).encode())
+    assert _refused("\n".join(lines).encode()) == "f.yaml:5: expands to more than 100000 values"
 
 
 @given(st.binary(max_size=200))
