@@ -22,7 +22,7 @@ from harness.live.mailbox import Mailbox
 from harness.live.study import LiveStudy, as_console
 from harness.live.tokens import ROLES, Grant
 from harness.live.visit import Visit
-from protocols.course.obstacles import obstacle_boxes
+from protocols.course.drawing import SCRIPTS, course_picture, script
 
 TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -69,11 +69,12 @@ def make_app(study: LiveStudy, hosts: frozenset[str], origins: frozenset[str]) -
 class _Server:
     def __init__(self, study: LiveStudy) -> None:
         self._study = study
+        self._course = course_picture(study.run.study.course)
         self._static = {
             file.name: file.read_bytes()
             for file in files("harness.live").joinpath("static").iterdir()
             if file.is_file()
-        }
+        } | {name: script(name).encode() for name in SCRIPTS}
 
     async def page(self, request: Request) -> Response:
         """Return a role's page; the page itself asks with its link's token."""
@@ -130,7 +131,7 @@ class _Server:
             "type": "welcome",
             "role": "participant",
             "person": person,
-            "course": course_picture(self._study),
+            "course": self._course,
             "live": _for_participant(protocol.live.model_dump(mode="json")),
             "period_s": protocol.control_period_s,
         }
@@ -159,7 +160,7 @@ class _Server:
         welcome = {
             "type": "welcome",
             "role": "demonstrator",
-            "course": course_picture(self._study),
+            "course": self._course,
             "live": {"clutch": protocol.live.clutch, "view": protocol.live.demonstrator_view},
             "period_s": protocol.control_period_s,
         }
@@ -190,7 +191,11 @@ class _Server:
         return None
 
     async def _experimenter(self, socket: WebSocket) -> None:
-        welcome = {"type": "welcome", "role": "experimenter", "course": course_picture(self._study)}
+        welcome = {
+            "type": "welcome",
+            "role": "experimenter",
+            "course": self._course,
+        }
         await socket.send_text(json.dumps(welcome))
         gone = asyncio.Event()
 
@@ -297,16 +302,6 @@ def _for_participant(live: Mapping[str, Any]) -> dict[str, Any]:
     """Return what of the live settings a participant's page needs."""
     wanted = ("view", "show_lap_time", "machine_check", "instructions")
     return {name: live[name] for name in wanted}
-
-
-def course_picture(study: LiveStudy) -> dict[str, Any]:
-    """Return the course as a browser draws it: what stands there, and the gates."""
-    course = study.run.study.course
-    boxes = [
-        [b.cx, b.cy, b.heading, b.length, b.width, b.height, b.name] for b in obstacle_boxes(course)
-    ]
-    gates = [[g.name, list(g.left), list(g.right)] for g in course.gates]
-    return {"boxes": boxes, "gates": gates, "start": [course.start.x, course.start.y]}
 
 
 async def _either(event: asyncio.Event, seconds: float) -> None:

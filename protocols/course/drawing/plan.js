@@ -51,7 +51,7 @@ export function drawPlan(canvas, course, pose, options = {}) {
   }
   if (pose) {
     if (options.ranges) {
-      const n = options.ranges.length, span = 239.4 * Math.PI / 180;
+      const n = options.ranges.length, span = (options.span || 239.4) * Math.PI / 180;
       pen.fillStyle = "rgba(31,95,168,.12)"; pen.beginPath();
       const lx = pose[0] + 0.6 * Math.cos(pose[2]), ly = pose[1] + 0.6 * Math.sin(pose[2]);
       pen.moveTo(lx, ly);
