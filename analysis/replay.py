@@ -1,9 +1,11 @@
-"""A recorded lap as an animated picture, without another simulation."""
+"""Recorded laps as a moving picture or a page, without another simulation."""
 
-import io
+import math
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
+from itertools import groupby, zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +24,10 @@ from PIL import Image
 from analysis.figures.plan import draw_plan
 from analysis.figures.style import BLACK, BLUE, GREEN, GREY, SKY, VERMILLION, tidy
 from analysis.figures.text import literal_text, wrapped
+from analysis.film import Encoder, gif, mp4, require_encoder
 from analysis.frames import as_frame
+from analysis.lap_pages.lap_data import LapOf, lap_data, lap_of
+from analysis.lap_pages.page import render_laps
 from analysis.measures.streams import Numbers, Steps, stream
 from lad.inputs import N_SEGMENTS
 from protocols.course.schema import Course
@@ -47,56 +52,158 @@ _BEARINGS = np.deg2rad(-90 + 12 * (np.arange(N_SEGMENTS) + 0.5))
 
 def write_replay(
     study_dir: Path,
-    participant: str,
-    lap: int,
+    laps: Sequence[tuple[str, int]],
     out: Path,
     progress: Callable[[str], None] | None = None,
 ) -> None:
-    """Draw a lap as a GIF: the plan with chair, laser and trail, and p(h) against time.
+    """Draw a lap, or two side by side: a moving picture, or a page to move through.
+
+    A GIF or an MP4 shows the plan with chair, laser and trail, and p(h) against time; a page shows
+    the first-person view, the sticks and every value, too.
 
     Parameters
     ----------
     study_dir
         The study directory.
-    participant, lap
-        The participant's id, and the lap, counted from 0.
+    laps
+        One or two: the participant's id, and the lap, counted from 0.
     out
-        The file to write; replaced when it exists, never left half-written.
+        The file to write; replaced when it exists, never left half-written. Its ending says what
+        it is: .gif, .mp4 or .html.
     progress
         Called with a few words about what is being done.
 
     Raises
     ------
     InputError
-        When there is no such study, participant or lap, its steps are damaged, or the file's name
-        does not end with .gif or it cannot be written.
+        When there is no such study, participant or lap, its steps are damaged, the file's name has
+        another ending, there is no package that encodes an MP4, or it cannot be written.
     """
     out = Path(out)
-    if out.suffix.lower() != ".gif":
-        raise InputError(f"{out}: is not the name of a GIF; allowed: a name that ends with .gif")
+    encode = _encoder(out)
     if not out.parent.is_dir():
         raise InputError(f"{out}: cannot be written: {out.parent}: no such folder")
     study = open_study(Path(study_dir))
-    table, _, placement = study.lap_steps(participant, lap, against_lap=False)
-    steps = as_frame(table)
-    if len(steps) < 2:
-        raise InputError(f"{study_dir}: {participant}, lap {lap}: too short to draw; needs 2 steps")
-    shown = shown_steps(stream(steps, "t_s"))
-    if shown is None:
-        raise InputError(
-            f"{study_dir}: {participant}, lap {lap}: its steps have no times that go on; a replay "
-            "needs them"
-        )
-    title = wrapped(f"{participant}, lap {lap}: {_condition(study, participant, lap)}", 60, lines=4)
-    if not placement.on_course:
-        title += "\n(its positions do not fit the course)"
-    with literal_text():
-        stage = _Stage(study.course, steps, title)
-        frames = _drawn(stage, list(shown), progress or (lambda _: None))
+    found = [_found(study, participant, lap) for participant, lap in laps]
+    tell = progress or (lambda _: None)
+    content = _page(study, found) if encode is None else encode(*_film(study, found, tell))
     try:
-        write_whole(out, _gif(frames, list(shown.values())))
+        write_whole(out, content)
     except OSError as error:
         raise InputError(f"{out}: cannot be written: {error.strerror}") from None
+
+
+@dataclass(frozen=True, slots=True)
+class _Found:
+    """A lap and its steps; ``shown`` has the steps to be shown, and for how many frames."""
+
+    of: LapOf
+    steps: Steps
+    shown: dict[int, int]
+    on_course: bool
+
+
+def _encoder(out: Path) -> Encoder | None:
+    """Return what makes a film of frames; None for a page."""
+    ending = out.suffix.lower()
+    if ending == ".html":
+        return None
+    if ending == ".gif":
+        return partial(gif, colours=(*CONTROL.values(), SKY, VERMILLION, BLACK, "white"))
+    if ending == ".mp4":
+        require_encoder(out)
+        return mp4
+    raise InputError(
+        f"{out}: is not the name of a replay; allowed: a name that ends with .gif, .mp4 or .html"
+    )
+
+
+def _found(study: Study, participant: str, lap: int) -> _Found:
+    table, _, placement = study.lap_steps(participant, lap, against_lap=False)
+    steps = as_frame(table)
+    where = f"{study.folder}: {participant}, lap {lap}"
+    if len(steps) < 2:
+        raise InputError(f"{where}: too short to draw; needs 2 steps")
+    shown = shown_steps(stream(steps, "t_s"))
+    if shown is None:
+        raise InputError(f"{where}: its steps have no times that go on; a replay needs them")
+    return _Found(_lap_of(study, participant, lap), steps, shown, placement.on_course)
+
+
+def _lap_of(study: Study, participant: str, lap: int) -> LapOf:
+    """Return a lap as it was recorded; its condition is ? when the lap has no row."""
+    laps = study.laps
+    rows = laps.filter(
+        pc.and_(pc.equal(laps["participant"], participant), pc.equal(laps["lap"], lap))
+    )
+    if not len(rows):
+        return LapOf(participant, lap, "?", completed=False, time_s=math.nan)
+    return lap_of(as_frame(rows).to_dict("records")[0])
+
+
+def _page(study: Study, found: Sequence[_Found]) -> bytes:
+    title = f"{study.protocol.title}: " + " and ".join(
+        f"{one.of.participant}, lap {one.of.lap}" for one in found
+    )
+    held = [lap_data(one.of, one.steps, study.course) for one in found]
+    return render_laps(title, study.course, held, [lap["key"] for lap in held]).encode()
+
+
+def _film(
+    study: Study, found: Sequence[_Found], tell: Callable[[str], None]
+) -> tuple[list[Image.Image], list[int], float]:
+    """Return the frames, for how many times ``FRAME_S`` each is shown, and ``FRAME_S``."""
+    with literal_text():
+        stages = [_Stage(study.course, one.steps, _title(one)) for one in found]
+        times = list(together([one.shown for one in found]))
+        frames = []
+        for done, (at, _) in enumerate(times):
+            if done % 25 == 0:
+                tell(f"Drawing frames: {done} of {len(times)}")
+            drawn = [stage.frame(i) for stage, i in zip(stages, at, strict=True)]
+            frames.append(_side_by_side(drawn))
+    return frames, [lasting for _, lasting in times], FRAME_S
+
+
+def _title(one: _Found) -> str:
+    title = wrapped(f"{one.of.participant}, lap {one.of.lap}: {one.of.condition}", 60, lines=4)
+    return title if one.on_course else f"{title}\n(its positions do not fit the course)"
+
+
+def together(shown: Sequence[dict[int, int]]) -> Iterator[tuple[tuple[int, ...], int]]:
+    """Yield which step of each lap is shown at the same time, and for how many frames.
+
+    Parameters
+    ----------
+    shown
+        Of each lap, as ``shown_steps`` returns it; a lap that has ended stands at its last step.
+
+    Examples
+    --------
+    >>> list(together([{0: 1, 2: 2}, {0: 3, 5: 1}]))
+    [((0, 0), 1), ((2, 0), 2), ((2, 5), 1)]
+    """
+    frames = [[i for i, n in one.items() for _ in range(n)] for one in shown]
+    at = zip_longest(*frames)
+    last = tuple(one[0] for one in frames)
+    pairs = []
+    for steps in at:
+        last = tuple(before if i is None else i for i, before in zip(steps, last, strict=True))
+        pairs.append(last)
+    for pair, run in groupby(pairs):
+        yield pair, len(list(run))
+
+
+def _side_by_side(frames: Sequence[Image.Image]) -> Image.Image:
+    if len(frames) == 1:
+        return frames[0]
+    width, height = sum(frame.width for frame in frames), max(frame.height for frame in frames)
+    whole = Image.new("RGB", (width, height), "white")
+    at = 0
+    for frame in frames:
+        whole.paste(frame, (at, 0))
+        at += frame.width
+    return whole
 
 
 def shown_steps(t: Numbers) -> dict[int, int] | None:
@@ -130,14 +237,6 @@ def shown_steps(t: Numbers) -> dict[int, int] | None:
     shown = Counter(int(i) for i in known[at])
     shown.setdefault(int(known[-1]), 1)
     return dict(sorted(shown.items()))
-
-
-def _condition(study: Study, participant: str, lap: int) -> str:
-    """Return a lap's condition as it was recorded; ? when the lap has no row."""
-    laps = study.laps
-    rows = pc.and_(pc.equal(laps["participant"], participant), pc.equal(laps["lap"], lap))
-    found = laps.filter(rows)["condition"].to_pylist()
-    return found[0] if found else "?"
 
 
 @dataclass(frozen=True, slots=True)
@@ -253,35 +352,3 @@ def _rays(at: Numbers, heading: float, ranges: Numbers) -> list[Numbers]:
     mount = np.array([LASER_AHEAD, 0.0])
     start = _turned(mount[None], at, heading)[0]
     return [np.stack([start, end]) for end in _turned(mount + ends[seen], at, heading)]
-
-
-def _drawn(stage: _Stage, shown: Sequence[int], tell: Callable[[str], None]) -> list[Image.Image]:
-    frames = []
-    for done, i in enumerate(shown):
-        if done % 25 == 0:
-            tell(f"Drawing frames: {done} of {len(shown)}")
-        frames.append(stage.frame(i))
-    return frames
-
-
-def _gif(frames: list[Image.Image], lasting: list[int]) -> bytes:
-    """Return the frames as an endless GIF with one palette, so that little changes per frame.
-
-    Each lasts for so many times ``FRAME_S``; the format counts hundredths of a second, 65535 at
-    most.
-    """
-    palette = _palette(frames[len(frames) // 2])
-    flat = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
-    stream_ = io.BytesIO()
-    flat[0].save(stream_, "GIF", save_all=True, append_images=flat[1:], loop=0, optimize=False,
-                 duration=[min(round(1000 * FRAME_S * n), 655_350) for n in lasting])  # fmt: skip
-    return stream_.getvalue()
-
-
-def _palette(frame: Image.Image) -> Image.Image:
-    """Return a palette with the frame's shades and every colour that means something."""
-    sample = frame.copy()
-    size = max(sample.height // 16, 1)
-    for i, colour in enumerate((*CONTROL.values(), SKY, VERMILLION, BLACK, "white")):
-        sample.paste(colour, (0, i * 2 * size, 4 * size, (i + 1) * 2 * size))
-    return sample.quantize(32, dither=Image.Dither.NONE)

@@ -182,17 +182,32 @@ def _model(frames: StudyFrames) -> tuple[TestResult, ...]:
     if reference is None:
         return ()
     laps = with_place(frames.laps)
-    return lap_time_model(laps, reference, generator(frames.study, "mixed model"))
+    found = lap_time_model(laps, reference, generator(frames.study, "mixed model"))
+    return _in_order(frames, found, f"{{}} against {reference}")
 
 
 def _carry_over(frames: StudyFrames) -> tuple[TestResult, ...]:
     reference = reference_condition(frames.parts)
-    return () if reference is None else carry_over(with_place(frames.laps), reference)
+    if reference is None:
+        return ()
+    found = carry_over(with_place(frames.laps), reference)
+    return _in_order(frames, found, f"after {{}} against after {reference}")
 
 
 def _contrasts(frames: StudyFrames) -> tuple[TestResult, ...]:
     reference = reference_condition(frames.parts)
-    return () if reference is None else own_contrasts(frames.by_place, reference)
+    if reference is None:
+        return ()
+    found = own_contrasts(frames.by_place, reference)
+    return _in_order(frames, found, f"{{}} against {reference}")
+
+
+def _in_order(
+    frames: StudyFrames, found: Sequence[TestResult], named: str
+) -> tuple[TestResult, ...]:
+    """Return tests of conditions in the protocol's order, whichever was driven first."""
+    at = {named.replace("{}", condition): i for i, condition in enumerate(frames.conditions)}
+    return tuple(sorted(found, key=lambda one: at[one.name]))
 
 
 def _overlap(frames: StudyFrames, records: LapRecords) -> TestResult | None:

@@ -7,6 +7,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
+from analysis.figures.missing_letters import figure_scripts
 from analysis.figures.text import literal_text, make_literal
 
 DPI = 150
@@ -23,11 +24,15 @@ def settle(figure: Figure) -> None:
 def svg(figure: Figure) -> bytes:
     """Return a settled figure as SVG, without a date and with reproducible ids.
 
+    Letters are shapes, alike everywhere; where the figures' font lacks some, they stay text, which
+    the reader's browser draws with its own fonts.
+
     The canvas is asked itself: ``savefig`` would draw everything once more to lay it out.
     """
     stream = io.BytesIO()
     figure.set_dpi(DPI)
-    reproducible = mpl.rc_context({"svg.hashsalt": "lad-study", "svg.fonttype": "path"})
+    letters = "none" if figure_scripts(figure) else "path"
+    reproducible = mpl.rc_context({"svg.hashsalt": "lad-study", "svg.fonttype": letters})
     with reproducible, literal_text():
         canvas = FigureCanvasSVG(figure)
         canvas.print_svg(  # type: ignore[no-untyped-call]

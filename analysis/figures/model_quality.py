@@ -11,6 +11,12 @@ from analysis.figures.style import BLACK, GREY, colours, new_figure, say_nothing
 from analysis.figures.text import label_lines, wrapped
 from analysis.roles import Part
 
+_ROOM, _CONDITION = 2.2, 0.8
+"""Least width of the strips, and what each condition takes of it with its median, inches."""
+
+_LEGEND = 4
+"""Conditions whose names have a place inside the reliability diagram."""
+
 
 def model_figure(
     measures: pd.DataFrame, reliability: pd.DataFrame, parts: Sequence[Part]
@@ -26,20 +32,31 @@ def model_figure(
     parts
         The study's conditions; those with a model's predictions are drawn.
     """
-    figure = new_figure(3.2, 6.2)
     known = measures.dropna(subset=["when_auc"])
     shown = [part for part in parts if part.condition in set(known["condition"])]
     if not shown:
         return say_nothing_to_show(
-            figure, "No lap has both a model's p(h) and a demonstrator to compare it with."
+            new_figure(3.2, 6.2),
+            "No lap has both a model's p(h) and a demonstrator to compare it with.",
         )
-    left, right = figure.subplots(1, 2)
-    _strips(left, known, shown, colours(parts))
+    room = max(_ROOM, _CONDITION * len(shown))
+    lines = sum(_name(part).count("\n") + 1 for part in shown)
+    aside = len(shown) > _LEGEND  # inside, the names would cover the curves
+    figure = new_figure(max(3.2, 0.17 * lines + 0.6) if aside else 3.2, 4.0 + room)
+    widths = None if room == _ROOM else (room, 3.0)
+    left, right = figure.subplots(1, 2, width_ratios=widths)
+    _strips(left, known, shown, colours(parts), room)
     _curves(right, reliability, shown, colours(parts))
+    if aside:
+        figure.legend(loc="outside right upper", frameon=False, fontsize=8)
+    else:
+        right.legend(frameon=False, fontsize=8, loc="upper left")
     return figure
 
 
-def _strips(axes: Axes, known: pd.DataFrame, parts: Sequence[Part], shades: dict[str, str]) -> None:
+def _strips(
+    axes: Axes, known: pd.DataFrame, parts: Sequence[Part], shades: dict[str, str], room: float
+) -> None:
     for at, part in enumerate(parts):
         auc = known.loc[known["condition"] == part.condition, "when_auc"].to_numpy()
         spread = np.linspace(-0.18, 0.18, len(auc)) if len(auc) > 1 else np.zeros(1)
@@ -48,7 +65,7 @@ def _strips(axes: Axes, known: pd.DataFrame, parts: Sequence[Part], shades: dict
         axes.annotate(f"{np.median(auc):.3f}", (at + 0.3, float(np.median(auc))), fontsize=9,
                       va="center")  # fmt: skip
     axes.axhline(0.5, color=GREY, linewidth=0.8, linestyle=":")
-    axes.set_xticks(range(len(parts)), label_lines([part.condition for part in parts], 2.2))
+    axes.set_xticks(range(len(parts)), label_lines([part.condition for part in parts], room))
     axes.set_xlim(-0.6, len(parts) - 0.2)
     lowest = float(known["when_auc"].min())
     axes.set_ylim(min(0.45, lowest - 0.05), 1.02)
@@ -65,11 +82,14 @@ def _curves(
         axes.plot(
             bins["predicted"], bins["observed"], marker="o" if part.role == "model" else "s",
             color=shades[part.condition], linewidth=1.4, markersize=5,
-            label=wrapped(part.condition, 24, lines=3),
+            label=_name(part),
         )  # fmt: skip
     axes.set_xlim(-0.02, 1.02)
     axes.set_ylim(-0.02, 1.02)
     axes.set_xlabel("predicted p(h = 1 | x)")
     axes.set_ylabel("demonstrator would help")
-    axes.legend(frameon=False, fontsize=8, loc="upper left")
     tidy(axes, grid="y")
+
+
+def _name(part: Part) -> str:
+    return wrapped(part.condition, 24, lines=3)

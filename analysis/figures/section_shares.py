@@ -25,7 +25,9 @@ def section_figure(table: pd.DataFrame, parts: Sequence[Part]) -> Figure:
         The study's conditions; those with help are drawn.
     """
     shown = [part for part in parts if part.condition in set(table["condition"])]
-    figure = new_figure(3.4)
+    columns = 3 if _short(shown) else 1
+    lines = -(-(len(shown) + 1) // columns)
+    figure = new_figure(3.4 + 0.18 * max(lines - 2, 0))
     if not shown or table["assisted_percent"].isna().all():
         return say_nothing_to_show(figure, "No steps of assisted laps were recorded.")
     axes = figure.subplots()
@@ -47,9 +49,7 @@ def section_figure(table: pd.DataFrame, parts: Sequence[Part]) -> Figure:
     axes.set_ylim(0, 105)
     axes.set_ylabel("assisted steps / %")
     tidy(axes, grid="y")
-    figure.legend(
-        loc="outside upper center", ncols=3 if _short(shown) else 1, frameon=False, fontsize=9
-    )
+    figure.legend(loc="outside upper center", ncols=columns, frameon=False, fontsize=9)
     return figure
 
 

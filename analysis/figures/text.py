@@ -1,6 +1,7 @@
 """Text in figures is text: it is drawn as it was written, where there is room for it."""
 
 import textwrap
+import unicodedata
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -14,7 +15,7 @@ from matplotlib.text import Text
 def literal_text() -> Iterator[None]:
     """Draw without reading dollar signs as mathematics, and without a word about missing glyphs.
 
-    A character that no font has is drawn as a box; the words stand in the tables, too.
+    A character that no font has is drawn as a box; ``missing_letters`` says of which scripts.
     """
     plain = mpl.rc_context({"text.parse_math": False, "text.usetex": False})
     with plain, warnings.catch_warnings():
@@ -47,6 +48,9 @@ def wrapped(text: str, width: int, lines: int | None = None) -> str:
     >>> wrapped("a b c d e f", 3, lines=2)
     'a b\n...'
     """
+    # A Chinese or Japanese character takes the room of two Latin ones.
+    double = sum(unicodedata.east_asian_width(character) in "WF" for character in text)
+    width = max(width * len(text) // (len(text) + double), 1) if double else width
     return "\n".join(textwrap.wrap(text, width, max_lines=lines, placeholder="...") or [""])
 
 

@@ -7,6 +7,8 @@ from typing import Any, ClassVar
 import pandas as pd
 from matplotlib.figure import Figure
 
+from analysis.figures.missing_letters import figure_scripts
+
 Formatter = Callable[[Any], str]
 
 
@@ -122,6 +124,26 @@ def table(
 
 
 @dataclass(frozen=True, slots=True)
+class Spot:
+    """A place in a figure that leads somewhere.
+
+    Attributes
+    ----------
+    x, y
+        Where, in the units of the figure's first axes.
+    target
+        Where it leads, from the page's folder.
+    title
+        What is there, in words.
+    """
+
+    x: float
+    y: float
+    target: str
+    title: str
+
+
+@dataclass(frozen=True, slots=True)
 class Picture:
     """A figure.
 
@@ -135,6 +157,8 @@ class Picture:
         The same in words, for a reader who cannot see the figure.
     figure
         The figure.
+    spots
+        Places in it that lead somewhere.
     """
 
     kind: ClassVar[str] = "picture"
@@ -142,6 +166,36 @@ class Picture:
     caption: str
     alternative: str
     figure: Figure
+    spots: tuple[Spot, ...] = ()
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height of the settled figure, points."""
+        width, height = self.figure.get_size_inches()
+        return float(72 * width), float(72 * height)
+
+    @property
+    def scripts(self) -> tuple[str, ...]:
+        """Scripts in the figure that its own font lacks letters of."""
+        return figure_scripts(self.figure)
+
+    @property
+    def wide(self) -> bool:
+        """Whether the figure needs the page's whole width for its letters to be read."""
+        return self.size[0] > 550
+
+    @property
+    def placed(self) -> tuple[tuple[float, float, Spot], ...]:
+        """The spots, each with its place in the settled figure, points from the upper left."""
+        if not self.spots:
+            return ()
+        width, height = self.size
+        ends = self.figure.axes[0].transData.transform([(spot.x, spot.y) for spot in self.spots])
+        shares = self.figure.transFigure.inverted().transform(ends)
+        return tuple(
+            (round(float(width * x), 1), round(float(height * (1 - y)), 1), spot)
+            for (x, y), spot in zip(shares, self.spots, strict=True)
+        )
 
 
 Block = Paragraph | Remarks | Caution | Facts | Table | Picture

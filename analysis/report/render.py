@@ -1,12 +1,12 @@
 """A page as one self-contained HTML file."""
 
 import base64
-import hashlib
 from collections.abc import Mapping
 from importlib.resources import files
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from analysis.page_policy import content_policy
 from analysis.report.blocks import Page
 
 
@@ -30,16 +30,7 @@ def render(page: Page, svgs: Mapping[str, bytes]) -> str:
     style = files("analysis.report").joinpath("templates", "report.css").read_text("utf-8")
     sources = {name: _data_uri(content) for name, content in svgs.items()}
     template = environment.get_template("report.html.j2")
-    return template.render(page=page, style=style, sources=sources, policy=_policy(style))
-
-
-def _policy(style: str) -> str:
-    """Return what a browser lets the page do: show its own style and figures, and nothing else."""
-    digest = base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()
-    return (
-        f"default-src 'none'; img-src data:; style-src 'sha256-{digest}'; "
-        "base-uri 'none'; form-action 'none'"
-    )
+    return template.render(page=page, style=style, sources=sources, policy=content_policy(style))
 
 
 def _data_uri(svg: bytes) -> str:

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from analysis.figures.files import png, settle, svg
+from analysis.lap_pages.study_page import STUDY_PAGE, study_page
 from analysis.report.page import build_page
 from analysis.report.render import render
 from analysis.results import StudyResults, analyse
@@ -19,9 +20,9 @@ from protocols.record.reader import open_study
 def write_report(study_dir: Path, progress: Callable[[str], None] | None = None) -> Path:
     """Analyse a study directory and write its report.
 
-    ``report/`` gets ``index.html`` (one self-contained page), ``figures/`` (SVG and PNG),
-    ``tables/`` (CSV) and ``statistics.json``. It is built under another name and renamed; an older
-    report is replaced as a whole.
+    ``report/`` gets ``index.html`` (one self-contained page), ``study.html`` (the laps behind its
+    lap times), ``figures/`` (SVG and PNG), ``tables/`` (CSV) and ``statistics.json``. It is built
+    under another name and renamed; an older report is replaced as a whole.
 
     Parameters
     ----------
@@ -60,10 +61,12 @@ def write_results(results: StudyResults, progress: Callable[[str], None] | None 
         settle(picture.figure)
         svgs[picture.name], pngs[picture.name] = svg(picture.figure), png(picture.figure)
     tables = {t.name: csv_file(t.frame) for t in page.tables}
+    laps = study_page(results)
     tell("Writing the report")
     contents: dict[str, bytes] = {
         "index.html": render(page, svgs).encode(),
         "statistics.json": statistics_json(results).encode(),
+        **({} if laps is None else {STUDY_PAGE: laps.encode()}),
         **{f"figures/{name}.svg": content for name, content in svgs.items()},
         **{f"figures/{name}.png": content for name, content in pngs.items()},
         **{f"tables/{name}.csv": content for name, content in tables.items()},

@@ -16,11 +16,14 @@ from harness.cli import (
     benchmark,
     check,
     check_part,
+    doctor,
     explain,
     export,
     imports,
+    init,
     listing,
     live,
+    open_report,
     power,
     preregister,
     recover,
@@ -29,6 +32,7 @@ from harness.cli import (
     reproduce,
     run,
     validate,
+    watch,
 )
 from protocols.files.errors import InputError
 from protocols.files.scalars import short
@@ -36,7 +40,7 @@ from protocols.files.scalars import short
 app = typer.Typer(
     name="lad-study",
     invoke_without_command=True,
-    add_completion=False,
+    add_completion=True,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -72,9 +76,12 @@ def _options(
         typer.echo(context.get_help())
 
 
+app.command("init")(init.init)
 app.command("run")(run.run)
 app.command("live")(live.live)
+app.command("watch")(watch.watch)
 app.command("report")(report.report)
+app.command("open")(open_report.open_report)
 app.command("reproduce")(reproduce.reproduce)
 app.command("benchmark")(benchmark.benchmark)
 app.command("explain")(explain.explain)
@@ -87,6 +94,7 @@ app.command("validate")(validate.validate)
 app.command("check")(check.check)
 app.command("check-part")(check_part.check_part)
 app.command("recover")(recover.recover)
+app.command("doctor")(doctor.doctor)
 app.command("protocols")(listing.protocols)
 app.command("courses")(listing.courses)
 app.command("show")(listing.show)

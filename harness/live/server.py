@@ -23,8 +23,7 @@ from harness.live.mailbox import Mailbox
 from harness.live.study import LiveStudy
 from harness.live.tokens import ROLES, Grant
 from harness.live.visit import Visit
-from protocols.course.obstacles import obstacle_boxes
-from protocols.course.schema import Course
+from protocols.course.drawing import SCRIPTS, course_picture, script
 from protocols.live import LiveSettings
 
 TYPES = {
@@ -82,11 +81,12 @@ def make_app(study: LiveStudy, hosts: frozenset[str], origins: frozenset[str]) -
 class _Server:
     def __init__(self, study: LiveStudy) -> None:
         self._study = study
+        self._course = course_picture(study.run.study.course)
         self._static = {
             file.name: file.read_bytes()
             for file in files("harness.live").joinpath("static").iterdir()
             if file.is_file()
-        }
+        } | {name: script(name).encode() for name in SCRIPTS}
 
     async def page(self, request: Request) -> Response:
         """Return a role's page; the page itself asks with its link's token."""
@@ -143,7 +143,7 @@ class _Server:
             "type": "welcome",
             "role": "participant",
             "person": person,
-            "course": course_picture(self._study.run.study.course),
+            "course": self._course,
             "live": _for_participant(protocol.live.model_dump(mode="json")),
             "period_s": protocol.control_period_s,
         }
@@ -172,7 +172,7 @@ class _Server:
         welcome = {
             "type": "welcome",
             "role": "demonstrator",
-            "course": course_picture(self._study.run.study.course),
+            "course": self._course,
             "live": _for_demonstrator(protocol.live),
             "period_s": protocol.control_period_s,
         }
@@ -203,8 +203,11 @@ class _Server:
         return None
 
     async def _experimenter(self, socket: WebSocket) -> None:
-        course = course_picture(self._study.run.study.course)
-        welcome = {"type": "welcome", "role": "experimenter", "course": course}
+        welcome = {
+            "type": "welcome",
+            "role": "experimenter",
+            "course": self._course,
+        }
         await socket.send_text(json.dumps(welcome))
         gone = asyncio.Event()
 
@@ -335,15 +338,6 @@ def _for_participant(live: Mapping[str, Any]) -> dict[str, Any]:
 
 def _for_demonstrator(live: LiveSettings) -> dict[str, Any]:
     return {"clutch": live.clutch, "view": live.demonstrator_view, "shadow": live.shadow}
-
-
-def course_picture(course: Course) -> dict[str, Any]:
-    """Return the course as a browser draws it: what stands there, and the gates."""
-    boxes = [
-        [b.cx, b.cy, b.heading, b.length, b.width, b.height, b.name] for b in obstacle_boxes(course)
-    ]
-    gates = [[g.name, list(g.left), list(g.right)] for g in course.gates]
-    return {"boxes": boxes, "gates": gates, "start": [course.start.x, course.start.y]}
 
 
 async def _either(event: asyncio.Event, seconds: float) -> None:

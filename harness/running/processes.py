@@ -34,7 +34,7 @@ _CONTEXT = (
 _ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "BLIS")}
 """For linear algebra: the cores are taken by other sessions."""
 
-_LONGEST_FOLDER = 70
+LONGEST_FOLDER = 70
 """Bytes of a temporary folder's path: with the socket's name the system takes 103 and no more."""
 
 
@@ -63,19 +63,26 @@ def warm_up(modules: Iterable[str]) -> None:
 
 def _make_temporary_folder() -> None:
     """Make the folder of the fork server's socket where its whole path is short enough."""
+    folder = temporary_folder()
+    if folder is None:
+        raise InputError(
+            f"TMPDIR: {Path(tempfile.gettempdir())}: a path of at most {LONGEST_FOLDER} bytes "
+            "is needed, for the socket between processes"
+        )
     kept = tempfile.tempdir
     try:
-        for folder in (tempfile.gettempdir(), "/tmp", "/var/tmp"):  # noqa: S108  # a new one inside
-            if len(os.fsencode(folder)) <= _LONGEST_FOLDER and os.access(folder, os.W_OK):
-                tempfile.tempdir = folder
-                util.get_temp_dir()  # made once, and then kept
-                return
+        tempfile.tempdir = folder
+        util.get_temp_dir()  # made once, and then kept
     finally:
         tempfile.tempdir = kept
-    raise InputError(
-        f"TMPDIR: {Path(tempfile.gettempdir())}: a path of at most {_LONGEST_FOLDER} bytes "
-        "is needed, for the socket between processes"
-    )
+
+
+def temporary_folder() -> str | None:
+    """Return a folder for temporary files whose path is short enough for sockets; None for none."""
+    for folder in (tempfile.gettempdir(), "/tmp", "/var/tmp"):  # noqa: S108  # a new one inside
+        if len(os.fsencode(folder)) <= LONGEST_FOLDER and os.access(folder, os.W_OK):
+            return folder
+    return None
 
 
 class Processes:

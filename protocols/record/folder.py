@@ -163,6 +163,29 @@ def locked(folder: Path) -> Iterator[None]:
         yield
 
 
+def lock_taken_at(folder: Path) -> float | None:
+    """Return when the run that is writing into a study directory began, s since 1970.
+
+    None when no process has locked it, or the system has no locks that tell.
+    """
+    path = folder / _LOCK
+    try:
+        import fcntl  # noqa: PLC0415  # POSIX only
+    except ImportError:  # pragma: no cover - not on POSIX
+        return None
+    try:
+        with path.open() as lock:
+            begun = path.stat().st_mtime
+            # A shared lock: several may look at the same time, and a run that begins at this very
+            # moment is told that another is there, as it would be by a second run.
+            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return begun
+    except OSError:
+        return None
+    return None
+
+
 def _lock_file(folder: Path) -> Path:
     path = folder / _LOCK
     try:

@@ -13,8 +13,9 @@ from importlib.resources import files
 import pytest
 
 from harness.live.guard import HEADERS
-from harness.live.server import PAGES, TYPES, course_picture
+from harness.live.server import PAGES, TYPES
 from protocols.course.centreline import Centreline
+from protocols.course.drawing import SCRIPTS, course_picture, script
 from protocols.live import LiveSettings
 from protocols.load import load_course
 
@@ -190,10 +191,10 @@ class _Files(BaseHTTPRequestHandler):
         letter = self.path.split("/")[1]
         name = PAGES.get(letter, name)
         path = files("harness.live").joinpath("static", name)
-        if not path.is_file():
+        if name not in SCRIPTS and not path.is_file():
             self.send_error(404)
             return
-        content = path.read_bytes()
+        content = script(name).encode() if name in SCRIPTS else path.read_bytes()
         self.send_response(200)
         for header, value in HEADERS:
             self.send_header(header, value)

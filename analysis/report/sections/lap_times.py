@@ -1,9 +1,12 @@
 """Lap times by condition, and speedups."""
 
+import math
 from typing import Any
+from urllib.parse import quote
 
 from analysis.figures.lap_times import lap_time_figure
-from analysis.report.blocks import Picture, Section, Shown, table
+from analysis.lap_pages.study_page import STUDY_PAGE, held_laps
+from analysis.report.blocks import Picture, Section, Shown, Spot, table
 from analysis.report.numbers import count, interval, number, percent
 from analysis.results import StudyResults
 from analysis.tables.comparisons import speedup_table
@@ -34,6 +37,7 @@ def lap_time_section(results: StudyResults) -> Section:
                 f"{figure_6}.",
                 f"Lap times by condition: {said}.",
                 lap_time_figure(frames.laps, frames.parts, paper),
+                _spots(results),
             ),
             table("lap_times", "Lap times of finished laps, in seconds. Unfinished laps and laps "
                   "that were not driven are counted, not averaged.",
@@ -45,6 +49,21 @@ def lap_time_section(results: StudyResults) -> Section:
                   speedup_table(results.lap_times), _SPEEDUPS),
         ),
     )  # fmt: skip
+
+
+def _spots(results: StudyResults) -> tuple[Spot, ...]:
+    """Return for every lap that the study's page holds where its point is in the figure."""
+    at = {part.condition: i for i, part in enumerate(results.frames.parts)}
+    return tuple(
+        Spot(
+            at[one.condition],
+            one.time_s,
+            f"{STUDY_PAGE}#{quote(one.key)}",
+            f"{one.participant}, lap {one.lap}: {one.condition}, {number(one.time_s)} s",
+        )
+        for one in held_laps(results)
+        if math.isfinite(one.time_s)
+    )
 
 
 _THEIRS = (" (the paper's Figure 6)", " (the paper's 137%)")

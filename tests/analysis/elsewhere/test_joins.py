@@ -148,7 +148,7 @@ def test_a_replays_title_and_time_are_the_records(written, tmp_path):
         study.steps["01", "steps-2.parquet"] = still
 
     folder, out = written(fast), tmp_path / "lap.gif"
-    write_replay(folder, "01", 1, out)
+    write_replay(folder, [("01", 1)], out)
     with Image.open(out) as gif:
         shown = []
         for i in range(gif.n_frames):
@@ -157,7 +157,7 @@ def test_a_replays_title_and_time_are_the_records(written, tmp_path):
     assert min(shown) >= 20
     assert sum(shown) / 1000 == pytest.approx(4.5 / 2, abs=0.2)
     with pytest.raises(InputError, match="no times that go on"):
-        write_replay(folder, "01", 2, tmp_path / "still.gif")
+        write_replay(folder, [("01", 2)], tmp_path / "still.gif")
     assert not (tmp_path / "still.gif").exists()
 
 

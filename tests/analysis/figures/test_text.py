@@ -6,6 +6,7 @@ from matplotlib.text import Text
 
 from analysis.figures.files import png, settle, svg
 from analysis.figures.likert import likert_figure
+from analysis.figures.missing_letters import figure_scripts
 from analysis.figures.text import label_lines, wrapped
 from analysis.tables.survey import _counts
 from protocols.instrument import Instrument
@@ -72,3 +73,23 @@ def test_labels_side_by_side_do_not_meet():
 def test_no_line_is_longer_than_asked(text):
     """Long words are broken, too; and text without any is one empty line."""
     assert all(len(line) <= 20 for line in wrapped(text, 20).split("\n"))
+
+
+def test_letters_that_the_figures_lack_stay_text_for_the_browser():
+    """Chinese and emoji are not boxes in the SVG; a figure with Latin letters alone has shapes."""
+    figures = []
+    for text in ("agree", "\u540c\u610f \U0001f9bd"):
+        figure = Figure(figsize=(2, 1))
+        figure.text(0.1, 0.5, text)
+        settle(figure)
+        figures.append(figure)
+    latin, chinese = (svg(figure).decode() for figure in figures)
+    assert "<text" not in latin
+    assert "\u540c\u610f" in chinese.split("<text", 1)[1]
+    assert figure_scripts(figures[0]) == ()
+    assert figure_scripts(figures[1]) == ("CJK", "emoji")
+
+
+def test_a_line_of_wide_letters_has_half_as_many():
+    """A Chinese letter takes the room of two Latin ones."""
+    assert max(map(len, wrapped("\u5f88" * 30, 20).split("\n"))) == 10

@@ -54,11 +54,15 @@ def report(study, tmp_path_factory):
 
 
 def test_the_page_is_well_formed_and_links_only_to_itself(report):
-    """Tags close, ids are unique, links lead to a section or a file that is there."""
+    """Tags close, ids are unique, links lead to a section, a file or a lap that is there."""
     page = Page((report / "index.html").read_text())
     assert page.stack == []
     assert len(set(page.ids)) == len(page.ids)
-    for link in page.links:
+    laps = [link.partition("#")[2] for link in page.links if link.startswith("study.html#")]
+    assert len(laps) == len(set(laps)) > 10
+    held = (report / "study.html").read_text()
+    assert all(f'"key":"{lap}"' in held for lap in laps)
+    for link in set(page.links) - {f"study.html#{lap}" for lap in laps}:
         assert link[1:] in page.ids if link.startswith("#") else (report / link).is_file()
 
 

@@ -109,3 +109,26 @@ def test_sigterm_is_said_and_leaves_nothing(tmp_path):
     assert process.returncode == 143
     assert err.strip().splitlines() == ["lad-study: stopped by SIGTERM. What was finished is kept."]
     assert list((tmp_path / "tmp").iterdir()) == []
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_a_shell_can_complete_commands(shell):
+    """The script it asks for names the program; and the program answers with commands."""
+    script = _completed({"_LAD_STUDY_COMPLETE": f"source_{shell}"}).stdout
+    assert "_LAD_STUDY_COMPLETE=complete_" in script
+    asked = {
+        "_LAD_STUDY_COMPLETE": f"complete_{shell}",
+        "COMP_WORDS": "lad-study pre",
+        "COMP_CWORD": "1",
+        "_TYPER_COMPLETE_ARGS": "lad-study pre",
+        "_TYPER_COMPLETE_FISH_ACTION": "get-args",
+        "_TYPER_COMPLETE_WORD_TO_COMPLETE": "pre",
+    }
+    assert "preregister" in _completed(asked).stdout
+
+
+def _completed(environment):
+    command = [sys.executable, "-c", "from harness.cli import main; main()"]
+    return subprocess.run(  # noqa: S603  # our own code
+        command, env=os.environ | environment, capture_output=True, text=True, check=False
+    )

@@ -1,0 +1,1 @@
+"""Laps as interactive pages: one self-contained file, all of it from the record."""

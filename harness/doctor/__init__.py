@@ -1,0 +1,1 @@
+"""What this machine has, and what is missing for what somebody may want to do on it."""
