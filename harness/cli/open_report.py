@@ -17,7 +17,7 @@ def open_report(
 
     Example: lad-study open studies/four-lap-seed0
     """
-    from analysis.report.write import REPORT
+    from protocols.record.folder import REPORT
     from protocols.record.header import read_header
 
     read_header(study)
