@@ -91,7 +91,7 @@ def write_replay(
     if not placement.on_course:
         title += "\n(its positions do not fit the course)"
     with literal_text():
-        stage = _Stage(study.course, steps, title)
+        stage = _Stage(study.course_of(participant), steps, title)
         frames = _drawn(stage, list(shown), progress or (lambda _: None))
     try:
         write_whole(out, _gif(frames, list(shown.values())))

@@ -20,8 +20,8 @@ from analysis.frames import study_frames
 from analysis.lap_time_test import compare_laps
 from analysis.outcomes import by_participant
 from analysis.place import practice_of
+from analysis.power.adjusted import adjusted
 from analysis.power.pool import Pool
-from analysis.power.power import adjusted
 from analysis.power.vectorised import signed_rank_p
 from analysis.stats.mean_difference import mean_difference
 from analysis.stats.mixed_model import lap_time_model
@@ -107,7 +107,7 @@ def many(
     every = np.tile(places, (cohorts, 1))
     logs += np.log1p(-practice) * (every - 1)
     said = np.array([" > ".join(order) for order in orders])
-    pool = Pool(CONDITIONS, logs, every, {}, {}, np.tile(said, cohorts))
+    pool = Pool(CONDITIONS, logs, every, {}, {}, np.tile(said, cohorts), np.full(len(logs), ""))
     return logs, np.arange(len(logs)).reshape(cohorts, -1), pool
 
 

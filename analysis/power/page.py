@@ -10,9 +10,10 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from analysis.attainable import least_n
 from analysis.figures.files import png, settle, svg
 from analysis.figures.style import GREY, new_figure, tidy
-from analysis.power.power import STUDIES, PowerRow, impossible_below, smallest_n
+from analysis.power.power import STUDIES, PowerRow, smallest_n
 from analysis.report.blocks import Block, Page, Paragraph, Picture, Remarks, Section, Shown, table
 from analysis.report.numbers import NOTHING, count, number, percent, plural
 from analysis.report.render import render
@@ -167,9 +168,16 @@ def _needed(study: PowerStudy, analysis: Comparison) -> str:
         if n is not None
         else f"{target} is not reached with {most} participants"
     )
-    least = impossible_below(study.protocol, analysis)
-    bound = "" if least is None else f"; impossible below {plural(least, 'complete pair')}"
-    return f"{analysis.name}: {reached}{bound}."
+    return f"{analysis.name}: {reached}{impossible_below(study.protocol, analysis)}."
+
+
+def impossible_below(protocol: StudyProtocol, analysis: Comparison) -> str:
+    """Return the end of a sentence: with how few people an analysis cannot be significant."""
+    least = least_n(protocol, analysis)
+    if least is None:
+        return ""
+    people = "complete pair" if analysis.groups is None else "participant"
+    return f"; impossible below {plural(least, people)}"
 
 
 def _said(study: PowerStudy) -> str:
@@ -189,9 +197,14 @@ def _to_paste(study: PowerStudy) -> str:
         f"To paste: Sample size was planned by simulation. {STUDIES:,} studies for each of "
         f"{len(sizes)} sizes ({sizes[0]} to {sizes[-1]} participants) were drawn without "
         f"replacement from {study.pool} {people} and tested as declared (Wilcoxon signed-rank on "
-        "log ratios of lap times, Holm within the family, two-sided 5%; two one-sided tests where "
-        f"a margin is declared).{leaving} {said}."
+        f"log ratios of lap times{_of_groups(study)}, Holm within the family, two-sided 5%; two "
+        f"one-sided tests where a margin is declared).{leaving} {said}."
     )
+
+
+def _of_groups(study: PowerStudy) -> str:
+    compared = any(a.groups is not None for a in study.protocol.analyses)
+    return "; rank-sum tests of people's values between groups" if compared else ""
 
 
 def _size_in_words(study: PowerStudy, analysis: Comparison) -> str:

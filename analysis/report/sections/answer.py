@@ -10,6 +10,7 @@ from analysis.outcomes import by_participant
 from analysis.practice import order_confounded, other_orders
 from analysis.report.blocks import Block, Caution, Fact, Facts, Paragraph, Picture, Section
 from analysis.report.numbers import count, interval, is_p, number, p_value, percent, plural
+from analysis.report.sections.between import between_sentence
 from analysis.report.sections.registration import said_of
 from analysis.results import StudyResults
 from analysis.roles import reference_condition
@@ -28,8 +29,10 @@ def answer_section(results: StudyResults) -> Section:
     if chosen:
         blocks.append(Facts(tuple(_fact(results, c) for c in chosen)))
         blocks += [Paragraph(_sentence(c)) for c in chosen]
-    else:
+    elif not results.between:
         blocks.append(Paragraph(_nothing_to_say(results)))
+    timed = [c for c in results.between if c.outcome == "lap_time_s"]
+    blocks += [Paragraph(between_sentence(c)) for c in timed]
     blocks += [Caution(u.sentence) for u in results.unfinished]
     blocks += [Caution(text) for text in _cautions(results)]
     if chosen:
