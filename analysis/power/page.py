@@ -2,19 +2,31 @@
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from analysis.attainable import least_n
 from analysis.figures.files import png, settle, svg
 from analysis.figures.style import GREY, new_figure, tidy
+from analysis.power.pool import planned_practice
 from analysis.power.power import STUDIES, PowerRow, smallest_n
-from analysis.report.blocks import Block, Page, Paragraph, Picture, Remarks, Section, Shown, table
+from analysis.report.blocks import (
+    Block,
+    Caution,
+    Page,
+    Paragraph,
+    Picture,
+    Remarks,
+    Section,
+    Shown,
+    table,
+)
 from analysis.report.numbers import NOTHING, count, number, percent, plural
 from analysis.report.render import render
 from analysis.report.write import replace_folder
@@ -80,6 +92,7 @@ def power_page(study: PowerStudy) -> Page:
     """Return the page."""
     blocks: list[Block] = [
         Paragraph(_what_it_means(study)),
+        *(Caution(text) for text in _without_verdict(study)),
         Picture("power", _CAPTION.format(target=percent(100 * study.target)), _said(study),
                 _figure(study)),
         table("power", "Power of each declared analysis.", _frame(study), _COLUMNS),
@@ -118,6 +131,25 @@ def _what_it_means(study: PowerStudy) -> str:
     return " ".join(said)
 
 
+def _without_verdict(study: PowerStudy) -> Iterator[str]:
+    """Caution about analyses whose report will give no verdict, however many people there are."""
+    n = max(r.n for r in study.rows)
+    confounded = [
+        a.name
+        for a in study.protocol.analyses
+        if a.outcome == "lap_time_s"
+        and a.groups is None
+        and planned_practice(study.protocol, a, n) == "confounded"
+    ]
+    if confounded:
+        yield (
+            "In these orders the place of a lap follows from its condition "
+            f"({', '.join(confounded)}): a significant difference may be practice in part, and the "
+            "report gives no verdict on the condition, whatever the power. Other orders: `orders` "
+            "in the protocol."
+        )
+
+
 def _figure(study: PowerStudy) -> Figure:
     figure = new_figure(3.6)
     axes = figure.subplots()
@@ -132,6 +164,7 @@ def _figure(study: PowerStudy) -> Figure:
     axes.axhline(study.target, color=GREY, linewidth=1, linestyle=":")
     axes.set_ylim(-0.02, 1.04)
     axes.set_xlabel("participants")
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))  # no half people
     axes.set_ylabel("power")
     tidy(axes, grid="y")
     figure.legend(loc="outside upper center", ncols=2, frameon=False, fontsize=8)

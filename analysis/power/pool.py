@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from analysis.estimands import timed_laps
 from analysis.frames import StudyFrames
 from analysis.outcomes import outcome_of
-from analysis.place import with_place
+from analysis.place import Practice, practice_of, with_place
 from protocols.declared import Comparison
 from protocols.files.errors import InputError
-from protocols.order import group_of, in_words, laps_of
+from protocols.order import group_of, in_words, laps_of, places
 from protocols.study import StudyProtocol
 
 Array = NDArray[np.float64]
@@ -141,6 +141,19 @@ def _orders(laps: pd.DataFrame, people: list[str]) -> NDArray[np.str_]:
     ordered = laps.sort_values(["participant", "place"])
     said = ordered.groupby("participant")["condition"].agg(" > ".join)
     return np.asarray(said.reindex(people).fillna("").to_numpy(), dtype=np.str_)
+
+
+def planned_practice(protocol: StudyProtocol, analysis: Comparison, n: int) -> Practice:
+    """Return what a report could do about practice if n participants drove every lap as planned."""
+    rows = [
+        (number, lap.condition, place)
+        for number in range(1, n + 1)
+        for laps in [laps_of(protocol, number, 0)]
+        for lap, place in zip(laps, places(laps), strict=True)
+        if place is not None
+    ]
+    planned = pd.DataFrame(rows, columns=["participant", "condition", "place"])
+    return practice_of(planned, *analysis.pair)
 
 
 def wanted_orders(protocol: StudyProtocol, n: int, seed: int) -> list[tuple[str, str]]:

@@ -16,7 +16,7 @@ from analysis.power.adjusted import adjusted
 from analysis.power.assumptions import stated_effects
 from analysis.power.draws import draw_studies, pool_error
 from analysis.power.page import PowerStudy, power_json, write_power
-from analysis.power.pool import Pool, pool_of
+from analysis.power.pool import Pool, planned_practice, pool_of
 from analysis.power.power import power_rows, smallest_n
 from analysis.power.vectorised import (
     paired_t_p,
@@ -143,6 +143,13 @@ def test_many_studies_at_once_are_tested_as_the_report_does():
         assert tested.test.p == pytest.approx(found)
 
 
+def test_a_square_is_planned_without_a_caution():
+    """Balanced as planned in a Williams square, confounded in a fixed order."""
+    for name, practice in (("four-lap-balanced", "balanced"), ("four-lap", "confounded")):
+        protocol = load_protocol(name)
+        assert planned_practice(protocol, protocol.analyses[0], 12) == practice
+
+
 def test_a_stated_effect_takes_only_the_shape_from_the_pool(study):
     """Stated, the pool's own effect does not matter; each row says its source."""
     protocol = load_protocol("four-lap")
@@ -214,7 +221,9 @@ def test_a_study_is_a_pool_and_its_page_says_so(study, tmp_path):
     assert effects["the model helps"] == pytest.approx(math.log(0.9))
     rows = power_rows(study.protocol, pool, (2, 3), effects, seed=0, studies=40)
     page = write_power(tmp_path, PowerStudy(study.protocol, rows, pool.size, True, 0.8))
-    assert "To paste" in page.read_text(encoding="utf-8")
+    text = page.read_text(encoding="utf-8")
+    assert "To paste" in text
+    assert "gives no verdict on the condition" in text  # four-lap has one fixed order
     first = json.loads(power_json(rows))[0]
     assert set(first) == {"analysis", "n", "power", "mc_error", "pool_error", "source"}
     assert smallest_n(rows, "the model helps", 0.8) is None
