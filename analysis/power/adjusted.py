@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from analysis.place import restored
 from analysis.power.pool import Array, Pool
 from protocols.declared import Comparison
 
@@ -44,6 +45,33 @@ def _place_effects(logs: Array, places: Array, levels: Array) -> Array:
         (e * c for e, c in zip(effects, place_columns, strict=True)), np.zeros_like(logs)
     )
     return taken
+
+
+def log_differences(
+    pool: Pool, drawn: NDArray[np.intp], logs: Array, analysis: Comparison
+) -> Array:
+    """Return log ratios of condition and reference of drawn studies, as a report tests them.
+
+    Parameters
+    ----------
+    pool, drawn
+        The studies.
+    logs
+        As ``adjusted`` returns them; NaN for those who are lost.
+    analysis
+        A comparison within participants.
+    """
+    differences = log_values(pool, logs, analysis)
+    if len(np.unique(pool.orders)) < 2:
+        return differences
+    pair, places = list(pool.columns(analysis)), pool.places[drawn]
+    both = np.isfinite(logs[..., pair]).all(axis=2)
+    levels = np.unique(places[np.isfinite(places)])
+    counts = [((places[..., c] == level) & both).sum(axis=1) for c in pair for level in levels]
+    uneven = np.any(np.array(counts[: len(levels)]) != np.array(counts[len(levels) :]), axis=0)
+    timed = np.isfinite(logs)
+    within = timed.sum(axis=(1, 2)) - timed.any(axis=2).sum(axis=1) - (logs.shape[2] - 1)
+    return np.where(uneven[:, None], restored(differences, within, len(levels) - 1), differences)
 
 
 def log_values(pool: Pool, logs: Array, analysis: Comparison) -> Array:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analysis.attainable import ALPHA
-from analysis.power.adjusted import adjusted, log_values, people_values
+from analysis.power.adjusted import adjusted, log_differences, people_values
 from analysis.power.draws import draw_studies, pool_error
 from analysis.power.effects import Shift, Source, shift_of
 from analysis.power.pool import Array, Pool, wanted_orders
@@ -139,8 +139,9 @@ def _at_size(protocol: StudyProtocol, drawn: _Drawn, shifts: Mapping[str, Shift]
 def _within(drawn: _Drawn, analysis: Comparison, shift: Shift) -> _Tested:
     pool = drawn.pool
     unit = np.where(drawn.stays, pool.differences[analysis.name][drawn.people], np.nan) + shift.unit
-    timed = analysis.outcome == "lap_time_s"
-    d = log_values(pool, drawn.logs, analysis) + shift.log if timed else unit
+    d = unit
+    if analysis.outcome == "lap_time_s":
+        d = log_differences(pool, drawn.people, drawn.logs, analysis) + shift.log
     margin = analysis.equivalence_margin
     p = signed_rank_p(d) if margin is None else tost_p(unit, margin)
     return _Tested(p, *pseudomedians(d))

@@ -112,7 +112,7 @@ def _sentence(c: PairedComparison) -> str:
         f"{start}{c.condition} is {_size(c.lead)} than {c.reference}, {_percent_interval(c.lead)}"
         f"{_in_seconds(c)}; n = {count(c.complete)}{_missing(c)}; {_p(c)}. Means: {c.reference} "
         f"{number(c.mean_reference)} s, {c.condition} {number(c.mean_condition)} s{speedup}. "
-        f"{_verdict(c)}{_of_practice(c)}"
+        f"{_verdict(c)}{_of_practice(c)}{_of_unfinished(c)}"
     )
     if c.equivalence is not None and c.equivalence.computed:
         text += _equivalence(c, c.equivalence)
@@ -163,6 +163,29 @@ def _of_practice(c: PairedComparison) -> str:
             "a factor."
         )
     return ""
+
+
+def _of_unfinished(c: PairedComparison) -> str:
+    """Say so where the verdict depends on what an unfinished lap counts as."""
+    significant = c.lead.p < ALPHA
+    others = [
+        f"{_COUNTED[t.unfinished]}, {is_p(t.test.p)}"
+        for t in c.sensitivity
+        if t.test.computed and (t.test.p < ALPHA) != significant
+    ]
+    if not others:
+        return ""
+    return (
+        f" Whether p is below .05 depends on what an unfinished lap counts as: "
+        f"{'; '.join(others)} (not corrected)."
+    )
+
+
+_COUNTED = {
+    "complete pairs": "left out with its pair",
+    "limit": "as its time limit",
+    "worst rank": "as slower than every finished lap",
+}
 
 
 def _p(c: PairedComparison) -> str:

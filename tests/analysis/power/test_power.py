@@ -12,7 +12,7 @@ from scipy import stats
 from analysis.attainable import least_n
 from analysis.frames import study_frames
 from analysis.lap_time_test import compare_laps
-from analysis.power.adjusted import adjusted
+from analysis.power.adjusted import adjusted, log_differences
 from analysis.power.assumptions import stated_effects
 from analysis.power.draws import draw_studies, pool_error
 from analysis.power.page import PowerStudy, power_json, write_power
@@ -129,7 +129,8 @@ def test_many_studies_at_once_are_tested_as_the_report_does():
     pool.log_times[3, 1] = pool.places[3, 1] = np.nan
     drawn = draw_studies(pool, [("", "a > b"), ("", "b > a")] * 8, 5, np.random.default_rng(2))
     drawn[0, 0] = 3
-    p = signed_rank_p(np.diff(adjusted(pool, drawn), axis=2)[..., 0])
+    analysis = Comparison(name="b faster", condition="b", reference="a")
+    p = signed_rank_p(log_differences(pool, drawn, adjusted(pool, drawn), analysis))
     for study, found in zip(drawn, p, strict=True):
         rows = [
             (f"P{i:02d}", c, pool.places[who, at], np.exp(pool.log_times[who, at]))
