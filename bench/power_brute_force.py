@@ -76,7 +76,7 @@ def whole_studies(frames: StudyFrames, n: int) -> list[StudyFrames]:
     """Return studies of n people each, in the order of their numbers."""
 
     def part(table: pd.DataFrame, study: int) -> pd.DataFrame:
-        numbers = table["participant"].map(participant_number)
+        numbers = table["participant"].map(participant_number).astype("int64")
         return table[(numbers - 1) // n == study].reset_index(drop=True)
 
     return [
