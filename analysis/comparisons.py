@@ -12,6 +12,7 @@ import pandas as pd
 from analysis.attainable import smallest_p
 from analysis.estimands import ESTIMANDS
 from analysis.frames import StudyFrames
+from analysis.group_comparisons import GroupComparison, compare_groups
 from analysis.lap_time_test import LapTimeTest, lap_time_test
 from analysis.outcomes import UNITS, by_participant, outcome_of, values, wide_answers
 from analysis.place import Practice
@@ -113,8 +114,23 @@ class PairedComparison:
 
 
 def declared_comparisons(frames: StudyFrames) -> tuple[PairedComparison, ...]:
-    """Return what the protocol declares, in its order; confirmatory families Holm-corrected."""
-    results = [_declared(frames, comparison) for comparison in frames.study.protocol.analyses]
+    """Return what the protocol declares within participants; see ``declared_results``."""
+    return declared_results(frames)[0]
+
+
+def declared_results(
+    frames: StudyFrames,
+) -> tuple[tuple[PairedComparison, ...], tuple[GroupComparison, ...]]:
+    """Return what the protocol declares: within participants, and between groups of them.
+
+    Each in the protocol's order; confirmatory families are Holm-corrected over both.
+    """
+    results: list[PairedComparison | GroupComparison] = [
+        _declared(frames, comparison)
+        if comparison.groups is None
+        else compare_groups(frames, comparison)
+        for comparison in frames.study.protocol.analyses
+    ]
     for family in {r.family for r in results if r.kind == "confirmatory"}:
         members = [
             i for i, r in enumerate(results) if r.kind == "confirmatory" and r.family == family
@@ -124,10 +140,13 @@ def declared_comparisons(frames: StudyFrames) -> tuple[PairedComparison, ...]:
         for i, p, low in zip(members, adjusted, least, strict=True):
             bounded = math.isfinite(results[i].smallest_p)
             results[i] = replace(results[i], p_holm=p, smallest_p=low if bounded else math.nan)
-    return tuple(results)
+    return (
+        tuple(r for r in results if isinstance(r, PairedComparison)),
+        tuple(r for r in results if isinstance(r, GroupComparison)),
+    )
 
 
-def _least(c: PairedComparison) -> float:
+def _least(c: PairedComparison | GroupComparison) -> float:
     """Return the smallest p of a declared test: 0 where it has no bound."""
     return c.smallest_p if math.isfinite(c.smallest_p) else 0.0
 
@@ -163,7 +182,7 @@ def item_comparisons(
 
 
 def _declared(frames: StudyFrames, comparison: Comparison) -> PairedComparison:
-    condition, reference = comparison.condition, comparison.reference
+    condition, reference = comparison.pair
     wide = outcome_of(frames, comparison)
     result = _compare(frames, wide, comparison.outcome, condition, reference)
     if comparison.item is None:

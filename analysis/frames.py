@@ -117,6 +117,24 @@ def study_frames(study: Study, keep: Iterable[str] = ()) -> StudyFrames:
     )
 
 
+def on_own_course(frames: StudyFrames, steps: pd.DataFrame) -> pd.DataFrame:
+    """Return the steps of those who drove the study's own course: a group may have driven another.
+
+    Parameters
+    ----------
+    frames
+        The study.
+    steps
+        With a column ``participant``.
+    """
+    elsewhere = tuple(frames.study.header.group_courses)
+    if not elsewhere:
+        return steps
+    people = frames.everybody
+    gone = people.loc[people["group"].isin(elsewhere), "participant"]
+    return steps[~steps["participant"].isin(gone)]
+
+
 def counted_laps(study: Study, participants: Iterable[str]) -> pd.DataFrame:
     """Return the laps of some people as they were recorded, practice laps left out."""
     laps = as_frame(study.laps)

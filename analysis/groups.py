@@ -44,7 +44,7 @@ def group_results(frames: StudyFrames) -> GroupResults | None:
     names = tuple(frames.study.protocol.groups)
     if not names:
         return None
-    group = frames.everybody.set_index("participant")["group"]
+    group = group_by_participant(frames)
     laps = with_place(frames.laps).dropna(subset=["lap_time_s"])
     laps = laps.assign(group=laps["participant"].map(group),
                        log_time=np.log(laps["lap_time_s"].to_numpy(dtype=np.float64)))  # fmt: skip
@@ -56,6 +56,12 @@ def group_results(frames: StudyFrames) -> GroupResults | None:
         p_holm=holm([t.p for t in tests]) if tests else (),
         models=tuple(t for pair in pairs for t in group_model(frames, laps, *pair)),
     )
+
+
+def group_by_participant(frames: StudyFrames) -> pd.Series:
+    """Return everybody's group, by participant."""
+    group: pd.Series = frames.everybody.set_index("participant")["group"]
+    return group
 
 
 def _flow(frames: StudyFrames, names: tuple[str, ...]) -> pd.DataFrame:

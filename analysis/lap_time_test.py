@@ -9,7 +9,15 @@ import pandas as pd
 from analysis.attainable import smallest_p
 from analysis.estimands import timed_laps, worst_differences
 from analysis.frames import StudyFrames
-from analysis.place import Practice, practice_of, with_place, without_place
+from analysis.place import (
+    Practice,
+    imbalance,
+    less_places,
+    practice_of,
+    restored,
+    with_place,
+    without_place,
+)
 from analysis.randomness import generator
 from analysis.stats.mixed_model import lap_time_model
 from analysis.stats.result import TestResult
@@ -30,7 +38,8 @@ class LapTimeTest:
     test
         Log of the ratio of lap times, condition / reference: the Hodges-Lehmann estimate, its
         interval and Wilcoxon's test, of log times less their place's effect where place is
-        balanced; the mixed model with the place as a factor where it is only identified.
+        balanced (with its spread restored where it is not quite, ``place.restored``); the mixed
+        model with the place as a factor where it is only identified.
     seconds
         The Hodges-Lehmann estimate of the differences in s, not adjusted.
     smallest_p
@@ -90,6 +99,9 @@ def compare_laps(
     if practice == "balanced":
         times = times.assign(value=without_place(times, times["value"]))
     logs = _wide(times, laps, condition, reference)
+    if practice == "balanced" and imbalance(timed, condition, reference):
+        differences = (logs[condition] - logs[reference]).to_numpy()
+        logs[condition] = logs[reference] + restored(differences, *less_places(timed))
     test = _signed(logs, laps, condition, reference, unfinished)
     test = replace(
         test,

@@ -6,24 +6,43 @@ from analysis.frames import StudyFrames, as_frame, practised
 
 Order = tuple[str, ...]
 
+_PRACTICE = " (practice)"
+
 
 def driven_orders(frames: StudyFrames) -> Counter[Order]:
     """Return how many analysed participants drove which laps, practice marked as such, in order.
 
-    A participant who left out laps of another's order has not driven another one. Laps of
+    A participant who left out laps of another's order has not driven another one: who left counts
+    with the order that was given, where that is recorded. Laps of
     conditions that the study does not have are left out: they are named elsewhere.
     """
     laps = as_frame(frames.study.laps)
     known = laps["condition"].isin(list(frames.study.protocol.conditions))
     laps = laps[laps["participant"].isin(frames.participants["participant"]) & known]
-    marks = practised(laps).map({True: " (practice)", False: ""})
+    marks = practised(laps).map({True: _PRACTICE, False: ""})
     laps = laps.assign(driven=laps["condition"] + marks).sort_values("lap")
-    orders = Counter(tuple(own["driven"]) for _, own in laps.groupby("participant", sort=True))
+    own = {str(who): tuple(of["driven"]) for who, of in laps.groupby("participant", sort=True)}
+    given = _given(frames)
+    orders = Counter(own.values())
     whole: Counter[Order] = Counter()
-    for order, people in sorted(orders.items(), key=lambda found: (-len(found[0]), -found[1])):
+    for who, order in sorted(own.items(), key=lambda one: (-len(one[1]), -orders[one[1]])):
         longer = [other for other in whole if part_of(order, other)]
-        whole[max(longer, key=lambda other: orders[other]) if longer else order] += people
+        meant = [other for other in longer if _analysed(other) == given.get(who)] or longer
+        whole[max(meant, key=lambda other: orders[other]) if meant else order] += 1
     return whole
+
+
+def _given(frames: StudyFrames) -> dict[str, str]:
+    """Return the order that each participant was given, where it is recorded."""
+    people = frames.participants
+    if "order" not in people:
+        return {}
+    recorded = people.dropna(subset=["order"])
+    return dict(zip(recorded["participant"], recorded["order"], strict=True))
+
+
+def _analysed(order: Order) -> str:
+    return " > ".join(lap for lap in order if not lap.endswith(_PRACTICE))
 
 
 def part_of(order: Order, whole: Order) -> bool:

@@ -1,16 +1,26 @@
 """What was done against what was registered: kept, deviated, exploratory."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import pandas as pd
 
 from analysis.comparisons import PairedComparison
 from analysis.frames import StudyFrames, as_frame
+from analysis.group_comparisons import GroupComparison
+from analysis.stats.result import TestResult
 from analysis.versions import recording_versions
 from protocols.files.errors import InputError
 from protocols.order import group_of, in_words, laps_of
+from protocols.record.amendment import plan_number
 from protocols.record.enrolment import enrolled, slot_of
-from protocols.registration import REGISTRATION, Registration, plan_differences, read_registration
+from protocols.registration import (
+    REGISTRATION,
+    Registration,
+    plan_differences,
+    plan_study,
+    read_registration,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +34,11 @@ class Registered:
     table
         One row per part of the plan: part, registered, done, and ``kept`` (kept, deviated).
     amendments
-        Number, date and reason of each, in words.
+        Number, date and reason of each, and which sessions were before it, in words.
+    before
+        How many sessions were before the last amendment.
+    recorded
+        How many there are.
     fault
         Why the registration cannot be read; None when it can.
     """
@@ -33,6 +47,8 @@ class Registered:
     date: str
     table: pd.DataFrame
     amendments: tuple[str, ...] = ()
+    before: int = 0
+    recorded: int = 0
     fault: str | None = None
 
     @property
@@ -42,7 +58,9 @@ class Registered:
 
 
 def registered_plan(
-    frames: StudyFrames, declared: tuple[PairedComparison, ...]
+    frames: StudyFrames,
+    declared: tuple[PairedComparison, ...],
+    between: tuple[GroupComparison, ...] = (),
 ) -> Registered | None:
     """Compare a study with its registration; None for one without.
 
@@ -50,8 +68,8 @@ def registered_plan(
     ----------
     frames
         The study.
-    declared
-        Its declared comparisons, as they were computed.
+    declared, between
+        Its declared comparisons, within participants and between groups, as they were computed.
     """
     study = frames.study
     digest = study.protocol.registration
@@ -64,9 +82,10 @@ def registered_plan(
     rows = [
         _plan(frames, registration),
         _sample(frames, registration),
-        _allocation(frames),
+        _allocation(frames, registration),
         _versions(frames, registration),
-        *(_analysis(c) for c in declared if c.kind == "confirmatory"),
+        *(_analysis(c.name, c.lead) for c in declared if c.kind == "confirmatory"),
+        *(_analysis(c.name, c.test) for c in between if c.kind == "confirmatory"),
     ]
     later = registration.heads[1:]
     return Registered(
@@ -74,11 +93,39 @@ def registered_plan(
         date=registration.heads[0].date,
         table=pd.DataFrame(rows, columns=["part", "registered", "done", "kept"]),
         amendments=tuple(
-            f"Amendment {i}, {head.date}: {head.reason}" for i, head in enumerate(later, start=1)
+            f"Amendment {i}, {head.date}: {head.reason.rstrip('.')}. {_before(frames, i)}"
+            for i, head in enumerate(later, start=1)
         ),
+        before=_sessions_before(frames),
+        recorded=len(frames.everybody),
         fault=None if registration.digest == digest else "another registration's folder",
     )
 
+
+def _before(frames: StudyFrames, number: int) -> str:
+    """Return which sessions were before an amendment, and which after it."""
+    known = {a.number: a.sessions for a in frames.study.header.amended}
+    recorded = tuple(frames.everybody["participant"])
+    before = [who for who in recorded if who in known.get(number, ())]
+    after = [who for who in recorded if who not in before]
+    return f"Before it: {_people(before)}; after it: {_people(after)}"
+
+
+def _people(names: Sequence[str]) -> str:
+    if not names:
+        return "no session"
+    few = ", ".join(names) if len(names) <= _FEW else f"{names[0]}, {names[1]}, ..., {names[-1]}"
+    return f"{len(names)} ({few})"
+
+
+def _sessions_before(frames: StudyFrames) -> int:
+    amended = frames.study.header.amended
+    recorded = set(frames.everybody["participant"])
+    return len(recorded.intersection(amended[-1].sessions)) if amended else 0
+
+
+_FEW = 12
+"""Names that are listed one by one."""
 
 Row = tuple[str, str, str, str]
 
@@ -102,15 +149,21 @@ def _sample(frames: StudyFrames, registration: Registration) -> Row:
     return _row("participants", str(wanted), str(recorded), kept=recorded == wanted)
 
 
-def _allocation(frames: StudyFrames) -> Row:
-    """Compare every participant's recorded order and group with the registered allocation."""
-    protocol, seed = frames.study.protocol, frames.study.seed or 0
+def _allocation(frames: StudyFrames, registration: Registration) -> Row:
+    """Compare every participant's recorded order and group with the allocation of the plan then."""
+    seed = frames.study.seed or 0
+    protocols = [
+        plan_study(registration, number).protocol for number in range(len(registration.plans))
+    ]
     people = as_frame(frames.study.participants)
     wrong = []
     for who, order, group in zip(
         people["participant"], people["order"], people["group"], strict=True
     ):
         slot = slot_of(frames.study.folder, str(who))
+        protocol = frames.study.protocol
+        if frames.study.header.amended:
+            protocol = protocols[plan_number(frames.study.header, who)]
         given = in_words(laps_of(protocol, slot, seed)), group_of(protocol, slot, seed)
         if (order, None if pd.isna(group) else group) != given:
             wrong.append(str(who))
@@ -131,6 +184,6 @@ def _versions(frames: StudyFrames, registration: Registration) -> Row:
     return _row("versions", program, done, kept=not used)
 
 
-def _analysis(c: PairedComparison) -> Row:
-    done = "as declared" if c.lead.computed else f"cannot be computed: {c.lead.why_not}"
-    return _row(f"analysis: {c.name}", "confirmatory", done, kept=c.lead.computed)
+def _analysis(name: str, test: TestResult) -> Row:
+    done = "as declared" if test.computed else f"cannot be computed: {test.why_not}"
+    return _row(f"analysis: {name}", "confirmatory", done, kept=test.computed)

@@ -145,8 +145,8 @@ def _page(study: Study, found: Sequence[_Found]) -> bytes:
     title = f"{study.protocol.title}: " + " and ".join(
         f"{one.of.participant}, lap {one.of.lap}" for one in found
     )
-    held = [lap_data(one.of, one.steps, study.course) for one in found]
-    return render_laps(title, study.course, held, [lap["key"] for lap in held]).encode()
+    held = [lap_data(one.of, one.steps, study.course_of(one.of.participant)) for one in found]
+    return render_laps(title, study.courses, held, [lap["key"] for lap in held]).encode()
 
 
 def _film(
@@ -154,7 +154,9 @@ def _film(
 ) -> tuple[list[Image.Image], list[int], float]:
     """Return the frames, for how many times ``FRAME_S`` each is shown, and ``FRAME_S``."""
     with literal_text():
-        stages = [_Stage(study.course, one.steps, _title(one)) for one in found]
+        stages = [
+            _Stage(study.course_of(one.of.participant), one.steps, _title(one)) for one in found
+        ]
         times = list(together([one.shown for one in found]))
         frames = []
         for done, (at, _) in enumerate(times):

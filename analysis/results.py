@@ -7,12 +7,13 @@ import pandas as pd
 
 from analysis.comparisons import (
     PairedComparison,
-    declared_comparisons,
+    declared_results,
     item_comparisons,
     lap_time_comparisons,
 )
 from analysis.flow import Flow, participants_flow
-from analysis.frames import StudyFrames, study_frames
+from analysis.frames import StudyFrames, on_own_course, study_frames
+from analysis.group_comparisons import GroupComparison
 from analysis.groups import GroupResults, group_results
 from analysis.lap_records import LapRecords, read_laps
 from analysis.live_quality import LiveQuality, live_quality
@@ -67,7 +68,9 @@ class StudyResults:
     unfinished
         Conditions in which nobody finished a lap.
     declared
-        Comparisons the protocol declares.
+        Comparisons the protocol declares within participants.
+    between
+        Comparisons it declares between groups of them.
     without_rule
         The same without the rule ``min_completed_laps``; empty where that rule excludes no
         one.
@@ -102,6 +105,7 @@ class StudyResults:
     records: LapRecords
     unfinished: tuple[NobodyFinished, ...]
     declared: tuple[PairedComparison, ...]
+    between: tuple[GroupComparison, ...]
     without_rule: tuple[PairedComparison, ...]
     carry_over: tuple[TestResult, ...]
     groups: GroupResults | None
@@ -151,17 +155,18 @@ def analyse(
     model, contrasts = _model(frames), _contrasts(frames)
     surveys = tuple(_survey(frames, instrument) for instrument in study.instruments)
     measures = measure_table(frames, records)
-    declared = declared_comparisons(frames)
+    declared, between = declared_results(frames)
     return StudyResults(
         frames=frames,
         flow=participants_flow(frames),
         records=records,
         unfinished=nobody_finished(study),
         declared=declared,
+        between=between,
         without_rule=without_the_rule(frames),
         carry_over=_carry_over(frames),
         groups=group_results(frames),
-        registered=registered_plan(frames, declared),
+        registered=registered_plan(frames, declared, between),
         lap_times=lap_times,
         model=model,
         contrasts=contrasts,
@@ -214,11 +219,10 @@ def _overlap(frames: StudyFrames, records: LapRecords) -> TestResult | None:
     pair = first(frames.parts, "demonstrator"), first(frames.parts, "model")
     if None in pair:
         return None
-    seen = _seen(records.steps, list(frames.participants["participant"]), pair)
+    steps = on_own_course(frames, records.steps)
+    seen = _seen(steps, list(frames.participants["participant"]), pair)
     grid = plan_grid(frames.study.course)
-    maps = [
-        participant_maps(records.steps[records.steps["condition"] == c], seen, grid) for c in pair
-    ]
+    maps = [participant_maps(steps[steps["condition"] == c], seen, grid) for c in pair]
     found = map_overlap(maps[0], maps[1], generator(frames.study, "map overlap"))
     unseen = len(frames.participants) - len(seen)
     people_left_out = "1 participant" if unseen == 1 else f"{unseen} participants"

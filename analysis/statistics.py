@@ -36,6 +36,7 @@ def statistics_json(results: StudyResults) -> str:
         "repaired": study.remarks,
         "exclusions": results.frames.exclusions.remarks,
         "declared_comparisons": results.declared,
+        "declared_between_groups": results.between,
         "declared_without_exclusion": results.without_rule,
         "carry_over": results.carry_over,
         "groups": results.groups,

@@ -71,7 +71,8 @@ def _reasons(study: Study, laps: pd.DataFrame, plan: PlannedLap, fastest: float)
                 f"{fastest:.0f} s"
             )
             return
-        yield from _gates(study, laps, limit)
+        if not study.header.group_courses:  # gates of different courses cannot be counted together
+            yield from _gates(study, laps, limit)
     yield from _contact(laps)
 
 

@@ -45,6 +45,29 @@ def balance_in_words(protocol: StudyProtocol) -> Iterator[str]:
         yield f"a block of orders is {whole} participants: {n} make {_blocks(n // whole)}"
 
 
+def groups_in_words(protocol: StudyProtocol) -> str | None:
+    """Return how a protocol's groups are filled; None for a study without groups.
+
+    Examples
+    --------
+    >>> from protocols.groups import Group
+    >>> from protocols.load import load_protocol
+    >>> groups = {"usual": Group(ratio=2), "eager": Group()}
+    >>> groups_in_words(load_protocol("four-lap").model_copy(update={"groups": groups}))
+    '2 usual and 1 eager in each shuffled block of 3 participants: 12 make 4 whole blocks'
+    """
+    if not protocol.groups:
+        return None
+    shares = [f"{group.ratio} {name}" for name, group in protocol.groups.items()]
+    block = sum(group.ratio for group in protocol.groups.values())
+    n = protocol.cohort.participants
+    ends = f"{n} make {_blocks(n // block)}"
+    if n % block:
+        ends = f"{n} end in the middle of one, so groups are not quite as large as planned"
+    each = f"{', '.join(shares[:-1])} and {shares[-1]}"
+    return f"{each} in each shuffled block of {block} participants: {ends}"
+
+
 def _blocks(count: int) -> str:
     return "1 whole block" if count == 1 else f"{count} whole blocks"
 

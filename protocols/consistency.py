@@ -11,7 +11,7 @@ from protocols.groups import Group
 from protocols.laps import AskedInstrument, PlannedLap
 from protocols.model_choice import BorrowedModel
 from protocols.orders import Orders, legal_orders, order_faults, put_in_order, untaught
-from protocols.shipped_parts import LIVE
+from protocols.shipped_parts import LAD, LIVE
 
 
 def check_consistency(
@@ -57,7 +57,9 @@ def check_consistency(
         *_demonstrator_faults(conditions, demonstrators or {}, ("conditions",)),
         *_further_faults(demonstrators or {}, cohort),
         *_group_faults(conditions, groups or {}, models or {}, demonstrators or {}, cohort),
+        *_untaught_faults(conditions, laps, groups or {}, taught, orders or Orders()),
         *_analysis_faults(conditions, laps, analyses),
+        *_between_faults(analyses, groups or {}),
     )
     if faults:
         raise InconsistentError(faults)
@@ -217,6 +219,31 @@ def _group_faults(
                 yield Fault((*at, condition, where), message)
 
 
+def _untaught_faults(
+    conditions: Mapping[str, Condition],
+    laps: tuple[PlannedLap, ...],
+    groups: Mapping[str, Group],
+    taught: bool,
+    orders: Orders,
+) -> Iterator[Fault]:
+    """Find groups whose own conditions leave a model untaught in an order that they drive."""
+    if any(lap.condition not in conditions for lap in laps) or tuple(order_faults(orders, laps)):
+        return
+    for name, group in groups.items():
+        own = {**conditions, **group.conditions}
+        before = group.model.use != LAD if group.model is not None else taught
+        for order in legal_orders(orders, laps, conditions, taught=taught):
+            missing = untaught(put_in_order(laps, order), own, taught=before)
+            if missing is not None:
+                message = (
+                    f"'{missing}' is assisted by the model, which has learnt nothing yet in this "
+                    f"group's laps ({' > '.join(order)}); allowed: a lap with training: true "
+                    "before it, or a borrowed model"
+                )
+                yield Fault(("groups", name), message)
+                break
+
+
 def _session_survey_faults(surveys: tuple[AskedInstrument, ...], cohort: Cohort) -> Iterator[Fault]:
     if cohort.respondent is None and surveys:
         yield Fault(("survey",), "nobody answers; allowed: no survey, or cohort.respondent")
@@ -250,8 +277,7 @@ def _analysis_faults(
             message = f"'{comparison.name}' is the name of an earlier analysis; names are unique"
             yield Fault(("analyses", i, "name"), message)
         names.add(comparison.name)
-        for role in ("condition", "reference"):
-            given = getattr(comparison, role)
+        for role, given in zip(("condition", "reference"), comparison.conditions, strict=False):
             if given not in conditions:
                 yield Fault(("analyses", i, role), _unknown_condition(given, conditions))
             elif given not in driven and not misspelt:
@@ -266,3 +292,26 @@ def _analysis_faults(
         if comparison.condition == comparison.reference:
             message = f"'{comparison.reference}' would be compared with itself"
             yield Fault(("analyses", i, "reference"), message)
+
+
+def _between_faults(
+    analyses: tuple[Comparison, ...], groups: Mapping[str, Group]
+) -> Iterator[Fault]:
+    """Find comparisons of groups that cannot be made, and comparisons with nothing to compare."""
+    for i, comparison in enumerate(analyses):
+        at: Location = ("analyses", i)
+        if comparison.groups is None:
+            if comparison.reference is None:
+                message = "is missing; allowed: a condition to compare with, or groups to compare"
+                yield Fault((*at, "reference"), message)
+            continue
+        for j, name in enumerate(comparison.groups):
+            if name not in groups:
+                message = f"'{name}' is not a group of this protocol; {allowed(name, groups)}"
+                yield Fault((*at, "groups", j), message)
+        if comparison.groups[0] == comparison.groups[1]:
+            message = f"'{comparison.groups[0]}' would be compared with itself"
+            yield Fault((*at, "groups", 1), message)
+        if comparison.equivalence_margin is not None:
+            message = "equivalence is tested within participants; allowed: no margin, or no groups"
+            yield Fault((*at, "equivalence_margin"), message)

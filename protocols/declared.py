@@ -59,7 +59,7 @@ class Exclusion(FileModel):
 
 
 class Comparison(FileModel):
-    """Two conditions compared within participants, declared in advance.
+    """Two conditions compared within participants, or two groups of them, declared in advance.
 
     Attributes
     ----------
@@ -69,7 +69,12 @@ class Comparison(FileModel):
         A column of the lap table, ``instrument.item`` for a survey answer, or
         ``instrument.subscale`` for a composite score.
     condition, reference
-        Names of the two conditions; the effect is condition minus reference.
+        Names of the two conditions; the effect is condition minus reference. Between groups the
+        reference may be left out: then it is the condition itself that differs.
+    groups
+        Names of two groups: the effect is the first one's minus the second one's, of the condition
+        or of the difference between condition and reference (group x condition). None compares
+        within participants.
     kind
         Confirmatory comparisons of one family are corrected together (Holm).
     family
@@ -87,12 +92,25 @@ class Comparison(FileModel):
     name: Name
     outcome: Annotated[str, AfterValidator(_lap_outcome_or_item)] = "lap_time_s"
     condition: Name
-    reference: Name
+    reference: Name | None = None
+    groups: tuple[Name, Name] | None = None
     kind: Literal["confirmatory", "exploratory"] = "exploratory"
     family: Name = "primary"
     equivalence_margin: Annotated[float, Field(gt=0)] | None = None
     margin_reason: str = ""
     unfinished: Unfinished = "complete pairs"
+
+    @property
+    def conditions(self) -> tuple[str, ...]:
+        """The conditions it needs laps of: one, or two."""
+        return (self.condition,) if self.reference is None else (self.condition, self.reference)
+
+    @property
+    def pair(self) -> tuple[str, str]:
+        """Condition and reference; ``ValueError`` for a comparison of groups in one condition."""
+        if self.reference is None:
+            raise ValueError(f"'{self.name}' compares groups in one condition")
+        return self.condition, self.reference
 
     @property
     def item(self) -> tuple[str, str] | None:

@@ -21,9 +21,13 @@ class Group(FileModel):
         Conditions that are different for this group, by the name of one of the protocol's.
     model, demonstrator
         In place of the protocol's; None for the same.
+    course
+        Driven in place of the protocol's; a shipped course's name, or a file's path relative to the
+        protocol file. None for the same.
     """
 
     ratio: Annotated[int, Field(ge=1, le=20)] = 1
     conditions: dict[Name, Condition] = Field(default_factory=dict)
     model: ModelChoice | None = None
     demonstrator: DemonstratorChoice | None = None
+    course: Annotated[str, Field(min_length=1)] | None = None

@@ -100,6 +100,7 @@ def resolve_study(
         chosen = (
             _referred_course(protocol, source.folder) if course is None else load_course(course)
         )
+        group_courses = _group_courses(protocol, source.folder)
         instruments = _instruments(protocol, source.folder)
         protocol = _with_hashes(protocol, source.folder)
     except _ReferenceError as error:
@@ -117,7 +118,17 @@ def resolve_study(
         for where, line in document.lines.items()
         if where
     }
-    return replace(study, beside=beside, places=places)
+    return replace(study, beside=beside, places=places, **_by_group(study, group_courses))
+
+
+def _by_group(study: ResolvedStudy, courses: dict[str, Course]) -> dict[str, Any]:
+    """Return what groups with a course of their own change; they call it by its name."""
+    groups = {
+        name: group.model_copy(update={"course": courses[name].name} if name in courses else {})
+        for name, group in study.protocol.groups.items()
+    }
+    protocol = study.protocol.model_copy(update={"groups": groups})
+    return {"protocol": protocol, "group_courses": courses} if courses else {}
 
 
 def check_file(name_or_path: str) -> ResolvedStudy | Course | Instrument:
@@ -164,6 +175,19 @@ def _referred_course(protocol: StudyProtocol, folder: Path | None) -> Course:
     except InputError as error:
         raise _ReferenceError(Fault(("course",), str(error))) from None
     return _course(source)
+
+
+def _group_courses(protocol: StudyProtocol, folder: Path | None) -> dict[str, Course]:
+    """Return the courses of the groups that drive another one, by the group's name."""
+    found = {}
+    for name, group in protocol.groups.items():
+        if group.course is None:
+            continue
+        try:
+            found[name] = _course(locate("courses", group.course, folder))
+        except InputError as error:
+            raise _ReferenceError(Fault(("groups", name, "course"), str(error))) from None
+    return found
 
 
 def _with_texts(protocol: StudyProtocol, folder: Path | None) -> StudyProtocol:
@@ -270,5 +294,5 @@ def _resolved(
     if driven_elsewhere:  # published figures belong to the course that the protocol names
         changes["replicates"] = None
     return ResolvedStudy(
-        protocol.model_copy(update=changes), course, tuple(instruments.values()), folder
+        protocol.model_copy(update=changes), course, tuple(instruments.values()), folder=folder
     )

@@ -91,7 +91,7 @@ def _outcome_faults(protocol: StudyProtocol, instruments: Instruments) -> Iterat
             continue
         name, item = comparison.item
         meant = answering(instruments, name, item)
-        for condition in (comparison.condition, comparison.reference):
+        for condition in comparison.conditions:
             if not any((condition, name, one) in asked for one in meant):
                 message = f"'{item}' of '{name}' is not asked after a lap of '{condition}'"
                 yield Fault(("analyses", i, "outcome"), message)

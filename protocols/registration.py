@@ -10,16 +10,19 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from protocols.course.schema import Course
 from protocols.files.document import parse
 from protocols.files.dump import to_yaml
 from protocols.files.errors import InputError
 from protocols.files.file_model import FileModel
 from protocols.files.validation import validate
+from protocols.instrument import Instrument
 from protocols.model_choice import Sha256
 from protocols.record.atomic import write_whole
 from protocols.record.identity import identity, identity_differences
 from protocols.registration_text import registration_text
 from protocols.resolved import ResolvedStudy
+from protocols.study import StudyProtocol
 from protocols.versions import package_versions
 
 REGISTRATION = "registration"
@@ -65,13 +68,21 @@ class Registration:
         Where it lies.
     heads
         The first plan's head, then each amendment's, in order.
-    plan
-        What holds now: the last plan's content.
+    plans
+        The content of each.
+    protocols
+        The protocol of each.
     """
 
     folder: Path
     heads: tuple[Head, ...]
-    plan: Mapping[str, Any]
+    plans: tuple[Mapping[str, Any], ...]
+    protocols: tuple[StudyProtocol, ...]
+
+    @property
+    def plan(self) -> Mapping[str, Any]:
+        """What holds now: the last plan's content."""
+        return self.plans[-1]
 
     @property
     def digest(self) -> str:
@@ -169,16 +180,18 @@ def read_registration(folder: Path) -> Registration:
     """
     amended = sorted((folder / AMENDMENTS).glob("[0-9][0-9][0-9]"))
     heads: list[Head] = []
-    plan: dict[str, Any] = {}
+    plans: list[dict[str, Any]] = []
+    protocols: list[StudyProtocol] = []
     for part in (folder, *amended):
         head = _head(part)
         content = _verified(part / PLAN_FILE, head.digest)
-        _verified(part / PROTOCOL_FILE, head.protocol_sha256)
+        protocol = _verified(part / PROTOCOL_FILE, head.protocol_sha256)
         if heads and head.amends != heads[-1].digest:
             raise InputError(f"{part}: does not amend the plan before it; the chain is broken")
         heads.append(head)
-        plan = json.loads(content)
-    return Registration(folder, tuple(heads), plan)
+        plans.append(json.loads(content))
+        protocols.append(validate(parse(protocol, str(part / PROTOCOL_FILE)), StudyProtocol))
+    return Registration(folder, tuple(heads), tuple(plans), tuple(protocols))
 
 
 def _head(folder: Path) -> Head:
@@ -197,6 +210,21 @@ def _verified(path: Path, digest: str) -> bytes:
     if hashlib.sha256(content).hexdigest() != digest:
         raise InputError(f"{path}: changed since it was registered (its digest differs)")
     return content
+
+
+def plan_study(registration: Registration, number: int) -> ResolvedStudy:
+    """Return the study as a plan has it: 0 for the first one, else the amendment of that number."""
+    content = registration.plans[number]["study"]
+    protocol = registration.protocols[number]
+    return ResolvedStudy(
+        protocol.model_copy(update={"registration": registration.digest}),
+        Course.model_validate_json(json.dumps(content["course"])),
+        tuple(Instrument.model_validate_json(json.dumps(i)) for i in content["instruments"]),
+        {
+            name: Course.model_validate_json(json.dumps(course))
+            for name, course in content.get("group_courses", {}).items()
+        },
+    )
 
 
 def _canonical(plan: Mapping[str, Any]) -> bytes:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from protocols.balance import balance_in_words
+from protocols.balance import balance_in_words, groups_in_words
 from protocols.declared import Comparison
 from protocols.resolved import ResolvedStudy
 from protocols.study import StudyProtocol
@@ -102,9 +102,8 @@ def _randomization(protocol: StudyProtocol) -> str:
     said = [f"{sentence[0].upper()}{sentence[1:]}." for sentence in balance_in_words(protocol)]
     if not said and not protocol.groups:
         return "None: every participant drives the laps in the order above."
-    if protocol.groups:
-        ratio = " to ".join(str(g.ratio) for g in protocol.groups.values())
-        said.append(f"Groups are allocated {ratio}, in permuted blocks.")
+    if (groups := groups_in_words(protocol)) is not None:
+        said.append(f"Groups: {groups}.")
     said.append("Orders and groups are drawn in permuted blocks from the digest of this plan.")
     return " ".join(said)
 
@@ -150,7 +149,14 @@ def _analysis(a: Comparison) -> str:
         test += ", of log ratios, less each place's mean where place is balanced"
     if a.equivalence_margin is not None:
         test = f"two one-sided t-tests within ±{a.equivalence_margin:g}"
-    return f"{a.name} ({a.kind}{family}): {a.outcome}, {a.condition} against {a.reference}; {test}."
+    compared = " against ".join(a.conditions)
+    if a.groups is not None:
+        first, second = a.groups
+        compared = f"{compared}, group {first} against group {second}"
+        test = "Wilcoxon rank-sum of people's values, two-sided, exact up to 100 people"
+        if a.outcome == "lap_time_s":
+            test += ", of logs" if a.reference is None else ", of log ratios (group x condition)"
+    return f"{a.name} ({a.kind}{family}): {a.outcome}, {compared}; {test}."
 
 
 def _criteria(protocol: StudyProtocol) -> str:
@@ -169,11 +175,16 @@ def _margins(protocol: StudyProtocol) -> str | None:
 
 
 def _exclusion(protocol: StudyProtocol) -> str:
-    rules, said = protocol.exclusion, []
-    if rules.min_completed_laps is not None:
-        said.append(f"fewer than {rules.min_completed_laps} completed laps")
-    if rules.max_collisions is not None:
-        said.append(f"more than {rules.max_collisions} collisions")
+    rules = protocol.exclusion
+    words = {
+        "min_completed_laps": "fewer than {:g} completed laps",
+        "max_collisions": "more than {:g} collisions",
+        "max_late_share": "a larger share than {:g} of steps that started late",
+        "max_input_age_s": "commands older than {:g} s (99th percentile)",
+        "max_interruptions": "more than {:g} laps paused, stopped or disconnected",
+    }
+    limits = {name: getattr(rules, name) for name in words}
+    said = [words[name].format(limit) for name, limit in limits.items() if limit is not None]
     if not said:
         return "No participant is excluded by a rule."
     return f"Participants with {' or '.join(said)} (practice apart) are excluded."

@@ -23,6 +23,8 @@ class ResolvedStudy:
         The course of that name.
     instruments
         The instruments asked after any lap, in the order of their first use.
+    group_courses
+        The courses of groups that drive another one, by the group's name.
     folder
         Where relative paths in the components' options start; None for a shipped protocol. Not
         part of what the study is.
@@ -37,6 +39,7 @@ class ResolvedStudy:
     protocol: StudyProtocol
     course: Course
     instruments: tuple[Instrument, ...]
+    group_courses: Mapping[str, Course] = field(default_factory=dict)
     folder: Path | None = field(default=None, compare=False)
     beside: tuple[PartBeside, ...] = field(default=(), compare=False)
     places: Mapping[str, str] = field(default_factory=dict, compare=False)

@@ -103,6 +103,7 @@ def lap_data(of: LapOf, steps: Steps, course: Course) -> dict[str, Any]:
             streams[name] = packed(values, resolution)
     return {
         **lap_label(of),
+        "course": course.name,
         "steps": len(steps),
         "streams": streams,
         "control": _runs(steps),

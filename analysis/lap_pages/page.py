@@ -15,7 +15,7 @@ from protocols.course.schema import Course
 
 def render_laps(
     title: str,
-    course: Course,
+    courses: Sequence[Course],
     laps: Sequence[Mapping[str, Any]],
     shown: Sequence[str],
     *,
@@ -28,8 +28,8 @@ def render_laps(
     ----------
     title
         Heading.
-    course
-        Where the laps were driven.
+    courses
+        Where the laps were driven, each once.
     laps
         As ``analysis.lap_pages.lap_data.lap_data`` returns them; one or more.
     shown
@@ -51,7 +51,7 @@ def render_laps(
     style = folder.joinpath("laps.css").read_text("utf-8")
     code = _module({name: script(name) for name in SCRIPTS}, folder.joinpath("laps.js").read_text())
     data = {
-        "course": course_picture(course),
+        "courses": {course.name: course_picture(course) for course in courses},
         "laps": list(laps),
         "shown": list(shown),
         "points": list(points),

@@ -59,7 +59,7 @@ def study_page(results: StudyResults) -> str | None:
     )
     return render_laps(
         study.protocol.title,
-        study.course,
+        study.courses,
         held,
         [held[0]["key"]],
         points=[lap_label(one) for one in every],
@@ -74,4 +74,4 @@ def _data(results: StudyResults, one: LapOf) -> Iterator[dict[str, Any]]:
         table, _, _ = study.lap_steps(one.participant, one.lap, against_lap=False)
     except InputError:  # damaged: the report says so
         return
-    yield lap_data(one, as_frame(table), study.course)
+    yield lap_data(one, as_frame(table), study.course_of(one.participant))

@@ -1,5 +1,7 @@
 """Studies drawn from a pool of people, and the pool's own error."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -7,35 +9,50 @@ from analysis.power.pool import Pool
 
 
 def draw_studies(
-    pool: Pool, orders: list[str], studies: int, rng: np.random.Generator
+    pool: Pool, wanted: Sequence[tuple[str, str]], studies: int, rng: np.random.Generator
 ) -> NDArray[np.intp]:
-    """Draw studies of n people without replacement, with the orders that a study would have.
+    """Draw studies of n people without replacement, with the groups and orders of a study.
 
     Parameters
     ----------
     pool
         The people.
-    orders
-        The order of each of the n participants. Where the pool lacks an order, or has it too
-        seldom, anyone is taken: its people then all drove one fixed order.
+    wanted
+        Group and order of each of the n participants. Where the pool lacks an order, or has it too
+        seldom, anyone of the group is taken: its people then all drove one fixed order. A pool
+        without groups has one, "".
     studies
         How many.
 
     Returns
     -------
     NDArray
-        Shape (studies, n): rows of the pool.
+        Shape (studies, n): rows of the pool; a column holds people of one group.
     """
-    n = len(orders)
+    grouped = {group for group, _ in wanted} <= set(pool.groups)
+    drawn = []
+    for group in sorted({group for group, _ in wanted}) if grouped else [""]:
+        people = np.flatnonzero(pool.groups == group) if grouped else np.arange(pool.size)
+        orders = [order for of, order in wanted if not grouped or of == group]
+        drawn += _by_order(pool, people, orders, studies, rng)
+    return np.concatenate(drawn, axis=1)
+
+
+def _by_order(
+    pool: Pool,
+    people: NDArray[np.intp],
+    orders: list[str],
+    studies: int,
+    rng: np.random.Generator,
+) -> list[NDArray[np.intp]]:
     names, wanted = np.unique(orders, return_counts=True)
-    of_order = [np.flatnonzero(pool.orders == name) for name in names]
-    if any(len(people) < count for people, count in zip(of_order, wanted, strict=True)):
-        of_order, wanted = [np.arange(pool.size)], np.array([n])
-    return np.concatenate(
-        [_without_replacement(people, int(count), studies, rng)
-         for people, count in zip(of_order, wanted, strict=True)],
-        axis=1,
-    )  # fmt: skip
+    of_order = [people[pool.orders[people] == name] for name in names]
+    if any(len(them) < count for them, count in zip(of_order, wanted, strict=True)):
+        of_order, wanted = [people], np.array([len(orders)])
+    return [
+        _without_replacement(them, int(count), studies, rng)
+        for them, count in zip(of_order, wanted, strict=True)
+    ]
 
 
 def _without_replacement(

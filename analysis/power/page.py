@@ -2,18 +2,31 @@
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
+from analysis.attainable import least_n
 from analysis.figures.files import png, settle, svg
 from analysis.figures.style import GREY, new_figure, tidy
-from analysis.power.power import STUDIES, PowerRow, impossible_below, smallest_n
-from analysis.report.blocks import Block, Page, Paragraph, Picture, Remarks, Section, Shown, table
+from analysis.power.pool import planned_practice
+from analysis.power.power import STUDIES, PowerRow, smallest_n
+from analysis.report.blocks import (
+    Block,
+    Caution,
+    Page,
+    Paragraph,
+    Picture,
+    Remarks,
+    Section,
+    Shown,
+    table,
+)
 from analysis.report.numbers import NOTHING, count, number, percent, plural
 from analysis.report.render import render
 from analysis.report.write import replace_folder
@@ -79,6 +92,7 @@ def power_page(study: PowerStudy) -> Page:
     """Return the page."""
     blocks: list[Block] = [
         Paragraph(_what_it_means(study)),
+        *(Caution(text) for text in _without_verdict(study)),
         Picture("power", _CAPTION.format(target=percent(100 * study.target)), _said(study),
                 _figure(study)),
         table("power", "Power of each declared analysis.", _frame(study), _COLUMNS),
@@ -117,6 +131,25 @@ def _what_it_means(study: PowerStudy) -> str:
     return " ".join(said)
 
 
+def _without_verdict(study: PowerStudy) -> Iterator[str]:
+    """Caution about analyses whose report will give no verdict, however many people there are."""
+    n = max(r.n for r in study.rows)
+    confounded = [
+        a.name
+        for a in study.protocol.analyses
+        if a.outcome == "lap_time_s"
+        and a.groups is None
+        and planned_practice(study.protocol, a, n) == "confounded"
+    ]
+    if confounded:
+        yield (
+            "In these orders the place of a lap follows from its condition "
+            f"({', '.join(confounded)}): a significant difference may be practice in part, and the "
+            "report gives no verdict on the condition, whatever the power. Other orders: `orders` "
+            "in the protocol."
+        )
+
+
 def _figure(study: PowerStudy) -> Figure:
     figure = new_figure(3.6)
     axes = figure.subplots()
@@ -131,6 +164,7 @@ def _figure(study: PowerStudy) -> Figure:
     axes.axhline(study.target, color=GREY, linewidth=1, linestyle=":")
     axes.set_ylim(-0.02, 1.04)
     axes.set_xlabel("participants")
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))  # no half people
     axes.set_ylabel("power")
     tidy(axes, grid="y")
     figure.legend(loc="outside upper center", ncols=2, frameon=False, fontsize=8)
@@ -167,9 +201,16 @@ def _needed(study: PowerStudy, analysis: Comparison) -> str:
         if n is not None
         else f"{target} is not reached with {most} participants"
     )
-    least = impossible_below(study.protocol, analysis)
-    bound = "" if least is None else f"; impossible below {plural(least, 'complete pair')}"
-    return f"{analysis.name}: {reached}{bound}."
+    return f"{analysis.name}: {reached}{impossible_below(study.protocol, analysis)}."
+
+
+def impossible_below(protocol: StudyProtocol, analysis: Comparison) -> str:
+    """Return the end of a sentence: with how few people an analysis cannot be significant."""
+    least = least_n(protocol, analysis)
+    if least is None:
+        return ""
+    people = "complete pair" if analysis.groups is None else "participant"
+    return f"; impossible below {plural(least, people)}"
 
 
 def _said(study: PowerStudy) -> str:
@@ -189,9 +230,14 @@ def _to_paste(study: PowerStudy) -> str:
         f"To paste: Sample size was planned by simulation. {STUDIES:,} studies for each of "
         f"{len(sizes)} sizes ({sizes[0]} to {sizes[-1]} participants) were drawn without "
         f"replacement from {study.pool} {people} and tested as declared (Wilcoxon signed-rank on "
-        "log ratios of lap times, Holm within the family, two-sided 5%; two one-sided tests where "
-        f"a margin is declared).{leaving} {said}."
+        f"log ratios of lap times{_of_groups(study)}, Holm within the family, two-sided 5%; two "
+        f"one-sided tests where a margin is declared).{leaving} {said}."
     )
+
+
+def _of_groups(study: PowerStudy) -> str:
+    compared = any(a.groups is not None for a in study.protocol.analyses)
+    return "; rank-sum tests of people's values between groups" if compared else ""
 
 
 def _size_in_words(study: PowerStudy, analysis: Comparison) -> str:

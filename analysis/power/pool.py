@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from analysis.estimands import timed_laps
 from analysis.frames import StudyFrames
 from analysis.outcomes import outcome_of
-from analysis.place import with_place
+from analysis.place import Practice, practice_of, with_place
 from protocols.declared import Comparison
 from protocols.files.errors import InputError
-from protocols.order import in_words, laps_of
+from protocols.order import group_of, in_words, laps_of, places
 from protocols.study import StudyProtocol
 
 Array = NDArray[np.float64]
@@ -31,11 +31,14 @@ class Pool:
         Shape (people, conditions): log lap times in log s, and the laps' places; NaN where missing.
     differences
         Shape (people,) for each analysis: condition minus reference in the outcome's unit (s for
-        lap times).
+        lap times); of a comparison of groups in one condition, the outcome itself.
     reference_means
-        For each analysis the mean of the reference, in the outcome's unit.
+        For each analysis the mean of the reference, in the outcome's unit; of a comparison of
+        groups in one condition, the second group's mean.
     orders
         Shape (people,): the order each drove, in words.
+    groups
+        Shape (people,): each one's group, "" for none.
     """
 
     conditions: tuple[str, ...]
@@ -44,16 +47,17 @@ class Pool:
     differences: Mapping[str, Array]
     reference_means: Mapping[str, float]
     orders: NDArray[np.str_]
+    groups: NDArray[np.str_]
 
     @property
     def size(self) -> int:
         """Number of people."""
         return len(self.log_times)
 
-    def columns(self, comparison: Comparison) -> tuple[int, int]:
-        """Return the columns of an analysis's condition and reference."""
+    def columns(self, comparison: Comparison) -> tuple[int, ...]:
+        """Return the columns of an analysis's condition and, where it has one, its reference."""
         at = {name: i for i, name in enumerate(self.conditions)}
-        return at[comparison.condition], at[comparison.reference]
+        return tuple(at[name] for name in comparison.conditions)
 
 
 def pool_of(frames: StudyFrames, analyses: Sequence[Comparison]) -> Pool:
@@ -70,10 +74,10 @@ def pool_of(frames: StudyFrames, analyses: Sequence[Comparison]) -> Pool:
     Raises
     ------
     InputError
-        When the study lacks a condition that an analysis compares.
+        When the study lacks a condition or a group that an analysis compares.
     """
     for comparison in analyses:
-        for condition in (comparison.condition, comparison.reference):
+        for condition in comparison.conditions:
             if condition not in frames.conditions:
                 have = ", ".join(frames.conditions)
                 raise InputError(
@@ -84,17 +88,47 @@ def pool_of(frames: StudyFrames, analyses: Sequence[Comparison]) -> Pool:
     counted = {a.unfinished for a in analyses if a.outcome == "lap_time_s"}
     laps = with_place(timed_laps(frames, "limit" if "limit" in counted else "complete pairs"))
     wide = {c.name: outcome_of(frames, c) for c in analyses}
+    groups = _groups(frames, people, analyses)
     return Pool(
         conditions=frames.conditions,
         log_times=np.log(_table(laps, "lap_time_s", people, frames.conditions)),
         places=_table(laps, "place", people, frames.conditions),
-        differences={
-            c.name: (wide[c.name][c.condition] - wide[c.name][c.reference]).to_numpy()
-            for c in analyses
-        },
-        reference_means={c.name: float(wide[c.name][c.reference].mean()) for c in analyses},
+        differences={c.name: _difference(wide[c.name], c) for c in analyses},
+        reference_means={c.name: _reference_mean(wide[c.name], c, groups) for c in analyses},
         orders=_orders(laps, people),
+        groups=groups,
     )
+
+
+def _difference(wide: pd.DataFrame, comparison: Comparison) -> Array:
+    value = wide[comparison.condition]
+    if comparison.reference is not None:
+        value = value - wide[comparison.reference]
+    return np.asarray(value.to_numpy(), dtype=np.float64)
+
+
+def _reference_mean(wide: pd.DataFrame, comparison: Comparison, groups: NDArray[np.str_]) -> float:
+    if comparison.reference is not None:
+        return float(wide[comparison.reference].mean())
+    second = groups == (comparison.groups or ("", ""))[1]
+    return float(wide.loc[second, comparison.condition].mean())
+
+
+def _groups(
+    frames: StudyFrames, people: list[str], analyses: Sequence[Comparison]
+) -> NDArray[np.str_]:
+    """Return everyone's group; refuse a pool without the groups that are compared."""
+    of = frames.everybody.set_index("participant")["group"].reindex(people)
+    groups = np.asarray(of.fillna("").to_numpy(), dtype=np.str_)
+    for comparison in analyses:
+        for name in comparison.groups or ():
+            if name not in groups:
+                have = ", ".join(sorted(set(groups) - {""})) or "no groups"
+                raise InputError(
+                    f"{frames.study.folder}: nobody was in group '{name}', which "
+                    f"'{comparison.name}' compares; allowed: a pool with that group (it has {have})"
+                )
+    return groups
 
 
 def _table(laps: pd.DataFrame, column: str, people: list[str], conditions: Sequence[str]) -> Array:
@@ -109,6 +143,22 @@ def _orders(laps: pd.DataFrame, people: list[str]) -> NDArray[np.str_]:
     return np.asarray(said.reindex(people).fillna("").to_numpy(), dtype=np.str_)
 
 
-def wanted_orders(protocol: StudyProtocol, n: int, seed: int) -> list[str]:
-    """Return the orders that the first n participants of a study would be given, in words."""
-    return [in_words(laps_of(protocol, number, seed)) for number in range(1, n + 1)]
+def planned_practice(protocol: StudyProtocol, analysis: Comparison, n: int) -> Practice:
+    """Return what a report could do about practice if n participants drove every lap as planned."""
+    rows = [
+        (number, lap.condition, place)
+        for number in range(1, n + 1)
+        for laps in [laps_of(protocol, number, 0)]
+        for lap, place in zip(laps, places(laps), strict=True)
+        if place is not None
+    ]
+    planned = pd.DataFrame(rows, columns=["participant", "condition", "place"])
+    return practice_of(planned, *analysis.pair)
+
+
+def wanted_orders(protocol: StudyProtocol, n: int, seed: int) -> list[tuple[str, str]]:
+    """Return the groups ("" for none) and orders, in words, of a study's first n participants."""
+    return [
+        (group_of(protocol, number, seed) or "", in_words(laps_of(protocol, number, seed)))
+        for number in range(1, n + 1)
+    ]

@@ -3,20 +3,19 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from analysis.attainable import ALPHA, people_needed
+from analysis.attainable import ALPHA
+from analysis.power.adjusted import adjusted, log_differences, people_values
 from analysis.power.draws import draw_studies, pool_error
+from analysis.power.effects import Shift, Source, shift_of
 from analysis.power.pool import Array, Pool, wanted_orders
-from analysis.power.vectorised import pseudomedians, signed_rank_p, tost_p
+from analysis.power.vectorised import pseudomedians, rank_sum_rows, signed_rank_p, tost_p
 from analysis.stats.holm import holm
 from protocols.declared import Comparison
 from protocols.study import StudyProtocol
-
-Source = Literal["stated", "cohort"]
 
 STUDIES = 1000
 """Studies drawn for each size."""
@@ -89,114 +88,71 @@ def power_rows(
         How many are drawn for each size.
     """
     rows: list[PowerRow] = []
-    shifts = {a.name: _shift(pool, a, effects.get(a.name)) for a in protocol.analyses}
+    shifts = {a.name: shift_of(pool, a, effects.get(a.name)) for a in protocol.analyses}
     for n in sizes:
         rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(n,)))
         drawn = draw_studies(pool, wanted_orders(protocol, n, seed), studies, rng)
         stays = rng.random(drawn.shape) >= protocol.cohort.expected_dropout
-        rows += _at_size(protocol, pool, drawn, stays, shifts)
+        logs = np.where(stays[..., None], adjusted(pool, drawn), np.nan)
+        rows += _at_size(protocol, _Drawn(pool, drawn, stays, logs), shifts)
     return tuple(rows)
 
 
 @dataclass(frozen=True, slots=True)
-class _Shift:
-    """What is added to an analysis's differences, and the effect that is then there."""
+class _Drawn:
+    """Drawn studies: rows of the pool, who stays, and log times less each place's effect."""
 
-    log: float
-    unit: float
-    effect: float
-    source: Source
-
-
-def _shift(pool: Pool, analysis: Comparison, stated: float | None) -> _Shift:
-    """Centre the pool's differences on the stated effect; leave them where none is stated."""
-    unit = pool.differences[analysis.name]
-    if analysis.outcome != "lap_time_s":
-        there = float(np.nanmean(unit))
-        moved = 0.0 if stated is None else stated - there
-        return _Shift(moved, moved, there + moved, "cohort" if stated is None else "stated")
-    everyone = np.arange(pool.size)[None]
-    logs = _log_differences(pool, adjusted(pool, everyone), analysis)[0]
-    there = float(np.nanmean(logs))
-    if stated is None:
-        return _Shift(0.0, 0.0, there, "cohort")
-    seconds = pool.reference_means[analysis.name] * math.expm1(stated) - float(np.nanmean(unit))
-    return _Shift(stated - there, seconds, stated, "stated")
+    pool: Pool
+    people: NDArray[np.intp]
+    stays: NDArray[np.bool_]
+    logs: Array
 
 
-def adjusted(pool: Pool, drawn: NDArray[np.intp]) -> Array:
-    """Return log times of drawn studies less each place's effect, where a study identifies it.
+@dataclass(frozen=True, slots=True)
+class _Tested:
+    """p, estimate and width of the interval of each drawn study."""
 
-    Returns
-    -------
-    NDArray
-        Shape (studies, n, conditions).
-    """
-    logs, places = pool.log_times[drawn], pool.places[drawn]
-    levels = np.unique(places[np.isfinite(places)])
-    if len(np.unique(pool.orders)) < 2 or len(levels) < 2:
-        return logs
-    found = logs.copy()
-    for study in range(len(logs)):
-        found[study] -= _place_effects(logs[study], places[study], levels)
-    return found
+    p: Array
+    estimates: Array
+    widths: Array
 
 
-def _place_effects(logs: Array, places: Array, levels: Array) -> Array:
-    """Return each lap's place effect by least squares beside people and conditions; else zeros."""
-    there = np.isfinite(logs)
-    n, k = logs.shape
-    columns = [np.broadcast_to(np.eye(k)[c], (n, k)) for c in range(1, k)]
-    place_columns = [(places == level).astype(float) for level in levels[1:]]
-    stack = np.stack([*columns, *place_columns], axis=-1) * there[..., None]
-    count = np.maximum(there.sum(axis=1), 1)[:, None, None]
-    within = (stack - stack.sum(axis=1, keepdims=True) / count) * there[..., None]
-    y = np.where(there, logs, 0.0)
-    y = (y - y.sum(axis=1, keepdims=True) / count[..., 0]) * there
-    x, target = within.reshape(n * k, -1), y.reshape(-1)
-    if np.linalg.matrix_rank(x) < x.shape[1]:
-        return np.zeros_like(logs)
-    effects = np.linalg.lstsq(x, target, rcond=None)[0][k - 1 :]
-    taken: Array = sum(
-        (e * c for e, c in zip(effects, place_columns, strict=True)), np.zeros_like(logs)
-    )
-    return taken
-
-
-def _log_differences(pool: Pool, logs: Array, analysis: Comparison) -> Array:
-    condition, reference = pool.columns(analysis)
-    return np.asarray(logs[..., condition] - logs[..., reference])
-
-
-def _at_size(
-    protocol: StudyProtocol,
-    pool: Pool,
-    drawn: NDArray[np.intp],
-    stays: NDArray[np.bool_],
-    shifts: Mapping[str, _Shift],
-) -> list[PowerRow]:
-    logs = np.where(stays[..., None], adjusted(pool, drawn), np.nan)
-    tested, p = {}, {}
-    for analysis in protocol.analyses:
-        shift, name = shifts[analysis.name], analysis.name
-        unit = np.where(stays, pool.differences[name][drawn], np.nan) + shift.unit
-        timed = analysis.outcome == "lap_time_s"
-        d = _log_differences(pool, logs, analysis) + shift.log if timed else unit
-        margin = analysis.equivalence_margin
-        p[name] = signed_rank_p(d) if margin is None else tost_p(unit, margin)
-        tested[name] = d
-    corrected = _after_holm(protocol.analyses, p)
+def _at_size(protocol: StudyProtocol, drawn: _Drawn, shifts: Mapping[str, Shift]) -> list[PowerRow]:
+    tested = {
+        a.name: (_within if a.groups is None else _between)(drawn, a, shifts[a.name])
+        for a in protocol.analyses
+    }
+    corrected = _after_holm(protocol.analyses, {name: t.p for name, t in tested.items()})
     return [
         _row(
             a,
-            drawn,
+            drawn.people,
             tested[a.name],
             corrected[a.name] < ALPHA,
-            size=pool.size,
+            size=drawn.pool.size,
             shift=shifts[a.name],
         )
         for a in protocol.analyses
     ]
+
+
+def _within(drawn: _Drawn, analysis: Comparison, shift: Shift) -> _Tested:
+    pool = drawn.pool
+    unit = np.where(drawn.stays, pool.differences[analysis.name][drawn.people], np.nan) + shift.unit
+    d = unit
+    if analysis.outcome == "lap_time_s":
+        d = log_differences(pool, drawn.people, drawn.logs, analysis) + shift.log
+    margin = analysis.equivalence_margin
+    p = signed_rank_p(d) if margin is None else tost_p(unit, margin)
+    return _Tested(p, *pseudomedians(d))
+
+
+def _between(drawn: _Drawn, analysis: Comparison, shift: Shift) -> _Tested:
+    values = people_values(drawn.pool, drawn.logs, analysis, drawn.people)
+    values = np.where(drawn.stays, values, np.nan)
+    of = drawn.pool.groups[drawn.people[0]]  # a column holds people of one group
+    first, second = (values[:, of == name] for name in analysis.groups or ())
+    return _Tested(*rank_sum_rows(first + shift.log, second))
 
 
 def _after_holm(
@@ -214,15 +170,14 @@ def _after_holm(
 def _row(
     analysis: Comparison,
     drawn: NDArray[np.intp],
-    differences: Array,
+    tested: _Tested,
     rejected: NDArray[np.bool_],
     *,
     size: int,
-    shift: _Shift,
+    shift: Shift,
 ) -> PowerRow:
     power = float(rejected.mean())
-    estimates, widths = pseudomedians(differences)
-    significant = estimates[rejected]
+    significant = tested.estimates[rejected]
     equal = analysis.equivalence_margin is not None
     known = len(significant) > 0 and shift.effect != 0 and not equal
     return PowerRow(
@@ -235,7 +190,7 @@ def _row(
         effect=shift.effect,
         wrong_sign=float((significant * shift.effect < 0).mean()) if known else math.nan,
         exaggeration=float(np.abs(significant).mean() / abs(shift.effect)) if known else math.nan,
-        width=float(np.nanmean(widths)) if np.isfinite(widths).any() else math.nan,
+        width=float(np.nanmean(tested.widths)) if np.isfinite(tested.widths).any() else math.nan,
     )
 
 
@@ -248,20 +203,3 @@ def smallest_n(rows: Sequence[PowerRow], analysis: str, target: float) -> int | 
             break
         found = row.n
     return found
-
-
-def impossible_below(protocol: StudyProtocol, analysis: Comparison) -> int | None:
-    """Return the number of complete pairs below which an analysis cannot be significant.
-
-    None for a test of equivalence, whose p has no smallest value.
-    """
-    if analysis.equivalence_margin is not None:
-        return None
-    if analysis.kind != "confirmatory":
-        return people_needed(1)
-    family = [
-        a
-        for a in protocol.analyses
-        if a.kind == "confirmatory" and a.family == analysis.family and a.equivalence_margin is None
-    ]
-    return people_needed(len(family))

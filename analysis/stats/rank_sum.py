@@ -75,13 +75,26 @@ def rank_sum(group: Sample, reference: Sample, level: float = 0.95) -> TestResul
 
 def _exact_p(ranks: NDArray[np.float64], size: int, observed: float) -> float:
     """Two-sided p over all choices of who is in the group; mid-ranks are whole when doubled."""
-    pmf = _sums(np.rint(2 * ranks).astype(np.int64), size)
+    pmf = rank_sum_ways(np.rint(2 * ranks).astype(np.int64), size)
     at = round(2 * observed)
     return float(min(1.0, 2 * min(pmf[: at + 1].sum(), pmf[at:].sum())))
 
 
-def _sums(weights: NDArray[np.int64], size: int) -> NDArray[np.float64]:
-    """Return the probability of every sum of ``size`` of the weights, drawn without replacement."""
+def rank_sum_ways(weights: NDArray[np.int64], size: int) -> NDArray[np.float64]:
+    """Return the probability of every sum of ``size`` of the weights, drawn without replacement.
+
+    Parameters
+    ----------
+    weights
+        Whole ranks, or doubled mid-ranks; 1 or more.
+    size
+        How many are drawn.
+
+    Returns
+    -------
+    NDArray
+        By sum, from 0 on.
+    """
     ways = np.zeros((size + 1, int(weights.sum()) + 1))
     ways[0, 0] = 1.0
     for i, weight in enumerate(weights):  # at most 100 choose 50, which a float holds
@@ -100,7 +113,7 @@ def _interval(shifts: NDArray[np.float64], m: int, n: int, level: float) -> tupl
     """Order statistics of the differences that the untied test would not reject."""
     tail = (1 - level) / 2
     if m + n <= EXACT_UP_TO:
-        pmf = _sums(np.arange(1, m + n + 1), m)[m * (m + 1) // 2 :]
+        pmf = rank_sum_ways(np.arange(1, m + n + 1), m)[m * (m + 1) // 2 :]
         cut = int(np.searchsorted(np.cumsum(pmf), tail * (1 - 1e-12)))
     else:
         sd = math.sqrt(m * n * (m + n + 1) / 12)

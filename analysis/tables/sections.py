@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from analysis.frames import StudyFrames
+from analysis.frames import StudyFrames, on_own_course
 from analysis.lap_records import LapRecords
 from protocols.course.centreline import Centreline
 
@@ -10,11 +10,13 @@ from protocols.course.centreline import Centreline
 def section_table(frames: StudyFrames, records: LapRecords) -> pd.DataFrame:
     """Return one row per section of the course and assisted condition.
 
+    Of those who drove the study's own course.
+
     Columns: section, kind, condition, steps, ``assisted_percent`` (of the steps in the section),
     ``share_of_assistance_percent`` (of all assisted steps in the condition), and
     ``would_percent`` (steps in which the shadow demonstrator would have helped).
     """
-    steps = records.steps
+    steps = on_own_course(frames, records.steps)
     rows = []
     for part in frames.parts:
         if part.role not in ("demonstrator", "model"):

@@ -129,12 +129,12 @@ def _simulated(study: "ResolvedStudy", people: int, seed: int, out: Path, jobs: 
 
 
 def _print(study: "ResolvedStudy", rows: "tuple[object, ...]", target: float) -> None:
-    from analysis.power.power import PowerRow, impossible_below, smallest_n
+    from analysis.power.page import impossible_below
+    from analysis.power.power import PowerRow, smallest_n
 
     kept = [row for row in rows if isinstance(row, PowerRow)]
     for analysis in study.protocol.analyses:
         n = smallest_n(kept, analysis.name, target)
         reached = f"{n} participants" if n is not None else "not reached"
-        least = impossible_below(study.protocol, analysis)
-        bound = "" if least is None else f" (impossible below {least} complete pairs)"
+        bound = impossible_below(study.protocol, analysis)
         say(f"{analysis.name}: power {target:g} with {reached}{bound}")

@@ -10,6 +10,8 @@ from harness.cli.options import check_least, cores
 
 if TYPE_CHECKING:
     from harness.running.runner import Outcome
+    from protocols.registration import Registration
+    from protocols.resolved import ResolvedStudy
 
 
 def run(
@@ -114,6 +116,8 @@ def _run(
         plan = read_registration(registration)
         study = registered(study, plan)
     folder = out or Path("studies") / f"{study.protocol.name}-seed{seed}"
+    if plan is not None:
+        _amend(folder, study, seed, plan)
     with counted_sessions() as tell:
         outcome = run_study(
             StudyRun(study, seed),
@@ -126,6 +130,16 @@ def _run(
     if plan is not None:
         copy_registration(plan, folder)
     return folder, outcome
+
+
+def _amend(folder: Path, study: "ResolvedStudy", seed: int, plan: "Registration") -> None:
+    """Take over the plan's amendments where the study is under way, and say what was before."""
+    from protocols.record.amendment import amend_study
+
+    before = amend_study(folder, study, seed, plan)
+    if before:
+        number = len(plan.heads) - 1
+        say(f"Amendment {number} takes effect: {len(before)} sessions were before it.")
 
 
 def _failures(folder: Path, outcome: "Outcome") -> str:

@@ -27,7 +27,7 @@ def validate(
     locate_any(file).document()
 
     from analysis.attainable import out_of_reach
-    from protocols.balance import balance_in_words
+    from protocols.balance import balance_in_words, groups_in_words
     from protocols.course.schema import Course
     from protocols.load import check_file
     from protocols.parts import installed_parts
@@ -46,6 +46,8 @@ def validate(
         )
         for sentence in balance_in_words(protocol):
             say(f"Orders: {sentence}.")
+        if (groups := groups_in_words(protocol)) is not None:
+            say(f"Groups: {groups}.")
         for warning in out_of_reach(protocol):
             say(f"Caution: {warning}")
         for part in checked.beside:

@@ -98,6 +98,11 @@ class LiveStudy:
         lockstep: bool = False,
         on_change: Callable[[], None] = lambda: None,
     ) -> None:
+        for name in run.study.group_courses:
+            place = run.study.at(f"groups.{name}.course")
+            raise InputError(
+                f"{place}living participants all drive one course; allowed: no course in a group"
+            )
         self.folder, self.seats = folder, seats
         run = portable(run)
         header: StudyHeader = open_folder(folder, run.study, run.seed, "live")

@@ -75,11 +75,11 @@ def attempt(run: "StudyRun", number: int) -> Finished | Failed | Died:
 def _session(run: "StudyRun", number: int) -> dict[str, bytes]:
     from harness.session.borrowed import make_all_parts  # noqa: PLC0415  # the runner needs none
     from harness.session.session import Session  # noqa: PLC0415  # the same
+    from harness.session.study_run import of_one  # noqa: PLC0415  # the same
     from protocols.record.session import encode  # noqa: PLC0415  # the same
 
-    world = world_of(run)
-    parts = make_all_parts(run, number, world)
-    return encode(Session(run, number, world, parts).run(), run.digest)
+    parts = make_all_parts(run, number, world_of(run))  # a pilot drives the study's own course
+    return encode(Session(run, number, world_of(of_one(run, number)), parts).run(), run.digest)
 
 
 def _part_fault(run: "StudyRun", _number: int) -> InputError | None:

@@ -117,7 +117,10 @@ def _make_parts_of_group(
     run: StudyRun, name: str, group: Group, wanted: Callable[[Role, str], bool]
 ) -> None:
     """Make what is different for a group."""
-    own = _as_group(run, group)
+    own = _as_group(run, name, group)
+    if group.course is not None and wanted("driver", run.study.protocol.cohort.driver.use):
+        with _placed(run, f"groups.{name}.course"):
+            _driver_alone(own, 1, draw_person(run, 1))
     if group.model is not None and wanted("model", group.model.use):
         with _placed(run, f"groups.{name}.model"):
             session_model(own, 1)
@@ -146,14 +149,16 @@ def _placed(run: StudyRun, where: str) -> Iterator[None]:
         raise InputError(*(f"{place}{fault}" for fault in error.faults)) from error
 
 
-def _as_group(run: StudyRun, group: Group) -> StudyRun:
-    """Return the study with the model and the demonstrator of a group."""
+def _as_group(run: StudyRun, name: str, group: Group) -> StudyRun:
+    """Return the study with the model, the demonstrator and the course of a group."""
     protocol = run.study.protocol
     changes: dict[str, object] = {"model": group.model or protocol.model, "groups": {}}
     if group.demonstrator is not None:
         update = {"demonstrator": group.demonstrator}
         changes["cohort"] = protocol.cohort.model_copy(update=update)
-    return replace(run, study=replace(run.study, protocol=protocol.model_copy(update=changes)))
+    course = run.study.group_courses.get(name, run.study.course)
+    protocol = protocol.model_copy(update=changes)
+    return replace(run, study=replace(run.study, protocol=protocol, course=course))
 
 
 def draw_person(run: StudyRun, number: int) -> Person:

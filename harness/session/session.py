@@ -50,7 +50,7 @@ class Session:
     number
         The participant, counted from 1.
     world
-        Of the study's course; it is reset before every lap.
+        Of the course that the participant drives; it is reset before every lap.
     parts
         What takes part, as ``make_parts`` returns it, or other people and models in their places.
     clock
@@ -86,7 +86,7 @@ class Session:
         self._run, self._number, self._world = of_one(run, number), number, world
         self._parts, self._journal = parts, journal
         self._clock: Clock = VirtualClock() if clock is None else clock
-        self._centreline = Centreline(run.study.course)
+        self._centreline = Centreline(self._run.study.course)
         self.stages = stages_of(run.study.protocol, run.slot_of(number), run.seed)
         self._planned = tuple(
             stage.planned

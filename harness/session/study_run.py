@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from participants.registry import portable_driver_options
-from protocols.order import of_participant
+from protocols.order import group_of, of_participant
 from protocols.resolved import ResolvedStudy
 
 
@@ -41,8 +41,13 @@ class StudyRun:
 
 def of_one(run: StudyRun, number: int) -> StudyRun:
     """Return the study as it is for one participant: with what is different for the group."""
-    protocol = of_participant(run.study.protocol, run.slot_of(number), run.seed)
-    return replace(run, study=replace(run.study, protocol=protocol))
+    slot = run.slot_of(number)
+    protocol = of_participant(run.study.protocol, slot, run.seed)
+    group = group_of(run.study.protocol, slot, run.seed)
+    course = run.study.course if group is None else run.study.group_courses.get(group)
+    return replace(
+        run, study=replace(run.study, protocol=protocol, course=course or run.study.course)
+    )
 
 
 def portable(run: StudyRun) -> StudyRun:

@@ -7,6 +7,7 @@ import pyarrow as pa
 
 from protocols.files.errors import InputError
 from protocols.order import group_of, in_words, laps_of
+from protocols.record.amendment import first_digest, plan_number
 from protocols.record.codebook import CODEBOOK_FILE, codebook_json
 from protocols.record.column import SCHEMA_VERSIONS, arrow_schema, brought_up_to_date
 from protocols.record.elsewhere.faults import Tell, foreign_faults
@@ -35,7 +36,13 @@ from protocols.record.session import (
 from protocols.record.sessions import SESSIONS, read_manifest, session_faults, session_folders
 from protocols.record.steps import STEP_COLUMNS
 from protocols.record.tables import LAP_COLUMNS, PARTICIPANT_COLUMNS, SURVEY_COLUMNS
-from protocols.registration import registration_faults
+from protocols.registration import (
+    REGISTRATION,
+    Registration,
+    plan_study,
+    read_registration,
+    registration_faults,
+)
 from protocols.resolved import ResolvedStudy
 
 
@@ -62,11 +69,12 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
         *_sessions_beyond(folder, header, sessions),
         *registration_faults(folder, header.study),
     ]
+    chain = _chain(folder, header)
     sound = []
     for number, session in enumerate(sessions, start=1):
         if tell is not None:
             tell(f"Session {number} of {len(sessions)}")
-        found = list(_session_faults(session, header))
+        found = list(_session_faults(session, header, chain))
         faults += [f"{fault}; {_mend(header, session, again)}" for fault in found]
         if not found:
             sound.append(session.name)
@@ -92,7 +100,11 @@ def check_remarks(folder: Path) -> tuple[str, ...]:
 
 
 def _header_faults(folder: Path, header: StudyHeader, again: str) -> Iterator[str]:
-    if header.seed is not None and header.digest != study_digest(header.study, header.seed):
+    chain = _chain(folder, header)
+    wanted = header.digest if chain is None else first_digest(header, chain)
+    if not header.amended and header.seed is not None:
+        wanted = study_digest(header.study, header.seed)
+    if header.digest != wanted:
         yield (
             f"{folder / STUDY_FILE}: was changed after the run (its digest differs); "
             "put the original back, or run the changed study in another folder"
@@ -100,6 +112,17 @@ def _header_faults(folder: Path, header: StudyHeader, again: str) -> Iterator[st
     path = folder / CODEBOOK_FILE
     if not path.is_file() or path.read_bytes() != codebook_json().encode():
         yield f"{path}: missing, or not this version's; {again} rebuilds it"
+
+
+def _chain(folder: Path, header: StudyHeader) -> Registration | None:
+    """Return the plans of an amended study; None for others, and where they cannot be read."""
+    if not header.amended:
+        return None
+    try:
+        found = read_registration(folder / REGISTRATION)
+    except InputError:
+        return None  # registration_faults says what is wrong
+    return found if len(found.heads) > header.amended[-1].number else None
 
 
 def _missing_sessions(
@@ -149,7 +172,9 @@ def _sessions_beyond(
         )
 
 
-def _session_faults(session: Path, header: StudyHeader) -> Iterator[str]:
+def _session_faults(
+    session: Path, header: StudyHeader, chain: Registration | None
+) -> Iterator[str]:
     """Check the files of one session: first their bytes, then their contents."""
     damaged = list(session_faults(session))
     yield from damaged
@@ -160,7 +185,10 @@ def _session_faults(session: Path, header: StudyHeader) -> Iterator[str]:
         yield f"{session}: a session of another study (its study's digest differs)"
         return
     try:
-        yield from _content_faults(session, header.study, header.seed or 0)
+        study = header.study
+        if chain is not None:
+            study = plan_study(chain, plan_number(header, session.name))
+        yield from _content_faults(session, study, header.seed or 0)
     except InputError as error:
         yield str(error)
 

@@ -32,12 +32,27 @@ def _origin_of_version_1(data: Mapping[str, Any]) -> Origin:
     return "elsewhere" if data.get("seed") is None else "simulated"
 
 
+class AmendedStudy(FileModel):
+    """An amendment that took effect in a study under way.
+
+    Attributes
+    ----------
+    number
+        Of the amendment, counted from 1.
+    sessions
+        Participants whose sessions were there before it.
+    """
+
+    number: Annotated[int, Field(ge=1)]
+    sessions: tuple[str, ...] = ()
+
+
 class StudyHeader(FileModel):
     """The head of a study directory: which study it holds.
 
     Attributes
     ----------
-    protocol, course, instruments
+    protocol, course, instruments, group_courses
         The study as it was resolved.
     origin
         Where the study comes from. A header of version 1 lacks it: with a seed it was
@@ -45,7 +60,10 @@ class StudyHeader(FileModel):
     seed
         None for a study that was recorded elsewhere.
     digest
-        Of protocol, course, instruments and seed, not of the number of participants.
+        Of protocol, course, instruments and seed, not of the number of participants; of an amended
+        study, as it was in the beginning.
+    amended
+        Amendments of the registration that took effect when sessions were there already.
     versions, platform
         Of the run that made the directory; every session's manifest has its own.
     """
@@ -55,10 +73,12 @@ class StudyHeader(FileModel):
     origin: Origin = Field(default_factory=_origin_of_version_1)
     digest: str | None = None
     platform: str | None = None
+    amended: tuple[AmendedStudy, ...] = ()
     versions: dict[str, str] = Field(default_factory=dict)
     protocol: StudyProtocol
     instruments: tuple[Instrument, ...] = ()
     course: Course
+    group_courses: dict[str, Course] = Field(default_factory=dict)
 
     @model_validator(mode="after")
     def _a_seed_unless_elsewhere(self) -> Self:
@@ -78,7 +98,7 @@ class StudyHeader(FileModel):
     @property
     def study(self) -> ResolvedStudy:
         """The study, with everything it refers to."""
-        return ResolvedStudy(self.protocol, self.course, self.instruments)
+        return ResolvedStudy(self.protocol, self.course, self.instruments, self.group_courses)
 
 
 def header_of(study: ResolvedStudy, seed: int, origin: Origin = "simulated") -> StudyHeader:
@@ -92,6 +112,7 @@ def header_of(study: ResolvedStudy, seed: int, origin: Origin = "simulated") -> 
         protocol=study.protocol,
         instruments=study.instruments,
         course=study.course,
+        group_courses=dict(study.group_courses),
     )
 
 

@@ -44,7 +44,8 @@ _LATER: Mapping[str, Mapping[str, Any]] = {
         "expected": None,
     },
     "instrument": {"score": None},
-    "analysis": {"margin_reason": "", "unfinished": "complete pairs"},
+    "analysis": {"margin_reason": "", "unfinished": "complete pairs", "groups": None},
+    "group": {"course": None},
     "limitation": {"left_turn_rad_s": None, "speed_m_s": None, "lag_s": 0.0, "dead_zone": 0.0},
     "parameters": LADParameters.later_defaults(),
 }
@@ -60,7 +61,12 @@ def study_digest(study: ResolvedStudy, seed: int) -> str:
 
     The number of participants is left out: a study can be enlarged.
     """
-    text = json.dumps(identity(study, seed), sort_keys=True, separators=(",", ":"))
+    return identity_digest(identity(study, seed))
+
+
+def identity_digest(content: Mapping[str, Any]) -> str:
+    """Return the SHA-256 of a study's identity."""
+    text = json.dumps(content, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -96,12 +102,18 @@ def identity(study: ResolvedStudy, seed: int | None) -> dict[str, Any]:
     for model in protocol.get("models", {}).values():
         if model["sha256"] is not None:  # the model itself, wherever it lies
             del model["path"]
-    return {
+    content = {
         "seed": seed,
         "protocol": protocol,
         "course": study.course.model_dump(mode="json", by_alias=True),
         "instruments": instruments,
     }
+    if study.group_courses:
+        content["group_courses"] = {
+            name: course.model_dump(mode="json", by_alias=True)
+            for name, course in study.group_courses.items()
+        }
+    return content
 
 
 def _with_later_fields(
@@ -112,6 +124,7 @@ def _with_later_fields(
     if protocol["consent"] is not None:
         yield protocol["consent"], "consent"
     yield protocol["model"]["parameters"], "parameters"
+    yield from ((group, "group") for group in protocol["groups"].values())
     for condition in protocol["conditions"].values():
         if condition["limitation"] is not None:
             yield condition["limitation"], "limitation"

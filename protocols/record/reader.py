@@ -56,8 +56,22 @@ class Study:
 
     @property
     def course(self) -> Course:
-        """The course that was driven."""
+        """The course that was driven; a group may have driven another one."""
         return self.header.course
+
+    @property
+    def courses(self) -> tuple[Course, ...]:
+        """The courses that were driven, each once: the study's, and those of groups."""
+        named = {one.name: one for one in (self.course, *self.header.group_courses.values())}
+        return tuple(named.values())
+
+    def course_of(self, participant: str) -> Course:
+        """Return the course that a participant drove: a group may have another one."""
+        if not self.header.group_courses:
+            return self.course
+        people = self.participants
+        of = dict(zip(people["participant"].to_pylist(), people["group"].to_pylist(), strict=True))
+        return self.header.group_courses.get(of.get(participant) or "", self.course)
 
     @property
     def instruments(self) -> tuple[Instrument, ...]:

@@ -40,7 +40,7 @@ def address(tmp_path_factory):
     course = load_course("lab-office")
     (one, first), (two, second) = _lap(course, 1, "alone"), _lap(course, 2, "<b>helped</b>")
     third = lap_label(LapOf("P0002", 1, "alone", completed=False, time_s=30.0))
-    html = render_laps("A study", course, [one, two], [one["key"]], points=[first, second, third])
+    html = render_laps("A study", [course], [one, two], [one["key"]], points=[first, second, third])
     path = tmp_path_factory.mktemp("page") / "study.html"
     path.write_text(html)
     return path.as_uri()

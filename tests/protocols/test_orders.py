@@ -132,6 +132,8 @@ def test_groups_have_their_ratio_after_every_block_and_orders_within(tmp_path):
         ("orders: {use: fixed, over: [limited]}", "a fixed order has no over"),
         ("groups: {one: {}}", "1 group is no factor"),
         ("groups: {one: {}, two: {conditions: {lap: {}}}}", "not a condition of this protocol"),
+        ("groups: {one: {}, two: {conditions: {human-assisted: {assistant: demonstrator}}}}",
+         "learnt nothing yet in this group"),
         ("models: {own: {from: pilot}}", "own is the participant's model"),
         ("models: {other: {from: file}}", "a path is needed"),
     ],

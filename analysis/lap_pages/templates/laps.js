@@ -75,7 +75,7 @@ function panel(lap) {
     return [name, unit, value];
   });
   root.append(list);
-  let eyes = makeView(view, data.course);
+  let eyes = makeView(view, data.courses[lap.course]);
   if (!eyes) { view.remove(); views.style.gridTemplateColumns = "1fr"; }
   return {
     root, open,
@@ -84,7 +84,7 @@ function panel(lap) {
       const seen = pose.every(Number.isFinite), helped = open.control[i] !== "driver", next = gatesPassed(lap, i);
       if (eyes && seen) { const scale = Math.min(window.devicePixelRatio || 1, 2); eyes.draw(pose, next, Math.round(view.clientWidth * scale), Math.round(view.clientHeight * scale)); }
       const ranges = Array.from({ length: 15 }, (_, k) => open.of(`segment_${String(k).padStart(2, "0")}`)[i]);
-      drawPlan(plan, data.course, seen ? pose : null, { trail: open.trail.slice(0, i + 1), mine: helped, gates: next,
+      drawPlan(plan, data.courses[lap.course], seen ? pose : null, { trail: open.trail.slice(0, i + 1), mine: helped, gates: next,
         ranges: ranges.every(Number.isFinite) ? ranges : null, fan: [-SEGMENTS, SEGMENTS, LASER_AHEAD] });
       drawSticks(sticks, open, i);
       for (const [curve, canvas] of curves) drawCurve(canvas, curve, open, i);

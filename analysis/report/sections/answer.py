@@ -10,6 +10,7 @@ from analysis.outcomes import by_participant
 from analysis.practice import order_confounded, other_orders
 from analysis.report.blocks import Block, Caution, Fact, Facts, Paragraph, Picture, Section
 from analysis.report.numbers import count, interval, is_p, number, p_value, percent, plural
+from analysis.report.sections.between import between_sentence
 from analysis.report.sections.registration import said_of
 from analysis.results import StudyResults
 from analysis.roles import reference_condition
@@ -28,8 +29,10 @@ def answer_section(results: StudyResults) -> Section:
     if chosen:
         blocks.append(Facts(tuple(_fact(results, c) for c in chosen)))
         blocks += [Paragraph(_sentence(c)) for c in chosen]
-    else:
+    elif not results.between:
         blocks.append(Paragraph(_nothing_to_say(results)))
+    timed = [c for c in results.between if c.outcome == "lap_time_s"]
+    blocks += [Paragraph(between_sentence(c)) for c in timed]
     blocks += [Caution(u.sentence) for u in results.unfinished]
     blocks += [Caution(text) for text in _cautions(results)]
     if chosen:
@@ -109,7 +112,7 @@ def _sentence(c: PairedComparison) -> str:
         f"{start}{c.condition} is {_size(c.lead)} than {c.reference}, {_percent_interval(c.lead)}"
         f"{_in_seconds(c)}; n = {count(c.complete)}{_missing(c)}; {_p(c)}. Means: {c.reference} "
         f"{number(c.mean_reference)} s, {c.condition} {number(c.mean_condition)} s{speedup}. "
-        f"{_verdict(c)}{_of_practice(c)}"
+        f"{_verdict(c)}{_of_practice(c)}{_of_unfinished(c)}"
     )
     if c.equivalence is not None and c.equivalence.computed:
         text += _equivalence(c, c.equivalence)
@@ -160,6 +163,29 @@ def _of_practice(c: PairedComparison) -> str:
             "a factor."
         )
     return ""
+
+
+def _of_unfinished(c: PairedComparison) -> str:
+    """Say so where the verdict depends on what an unfinished lap counts as."""
+    significant = c.lead.p < ALPHA
+    others = [
+        f"{_COUNTED[t.unfinished]}, {is_p(t.test.p)}"
+        for t in c.sensitivity
+        if t.test.computed and (t.test.p < ALPHA) != significant
+    ]
+    if not others:
+        return ""
+    return (
+        f" Whether p is below .05 depends on what an unfinished lap counts as: "
+        f"{'; '.join(others)} (not corrected)."
+    )
+
+
+_COUNTED = {
+    "complete pairs": "left out with its pair",
+    "limit": "as its time limit",
+    "worst rank": "as slower than every finished lap",
+}
 
 
 def _p(c: PairedComparison) -> str:

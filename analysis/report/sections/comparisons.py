@@ -15,6 +15,7 @@ from analysis.report.numbers import (
     rank_sum,
     with_interval,
 )
+from analysis.report.sections.between import between_blocks
 from analysis.results import StudyResults
 from analysis.tables.comparisons import comparison_table, sensitivity_table
 
@@ -22,6 +23,7 @@ from analysis.tables.comparisons import comparison_table, sensitivity_table
 def comparison_section(results: StudyResults) -> Section:
     """Return what was declared first, then everything that was not."""
     confirmatory = [c for c in results.declared if c.kind == "confirmatory"]
+    between = any(c.kind == "confirmatory" for c in results.between)
     declared = [c for c in results.declared if c.kind == "exploratory"]
     others = _undeclared(results)
     blocks: list[Block] = []
@@ -33,12 +35,13 @@ def comparison_section(results: StudyResults) -> Section:
         )
         columns = [_NAMED, *_TEST, *_tost(confirmatory), _HOLM]
         blocks += _table("confirmatory", caption, confirmatory, columns)
-    else:
+    elif not between:
         blocks.append(Paragraph("The protocol declares no confirmatory comparison."))
     if declared:
         caption = "Exploratory comparisons that the protocol declares; p not corrected."
         columns = [_NAMED, *_TEST, *_tost(declared)]
         blocks += _table("exploratory", caption, declared, columns)
+    blocks += between_blocks(results.between)
     unfinished = sensitivity_table(results.declared)
     if len(unfinished):
         blocks.append(table("unfinished", _ABOUT_UNFINISHED, unfinished, _UNFINISHED))

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from analysis.figures.assistance_map import assistance_map
 from analysis.figures.section_shares import section_figure
+from analysis.frames import on_own_course
 from analysis.maps import BANDWIDTH
 from analysis.report.blocks import Block, Paragraph, Picture, Section, Shown, table
 from analysis.report.numbers import count, is_p, number, percent, plural
@@ -30,12 +31,15 @@ def map_section(results: StudyResults) -> Section:
         table("section_shares", "Assisted steps by course section, pooled over the steps of all "
               "laps, unfinished ones too.", sections, _COLUMNS),
     ]  # fmt: skip
+    if elsewhere := frames.study.header.group_courses:
+        others = ", ".join(f"{name} ({course.name})" for name, course in elsewhere.items())
+        blocks.append(Paragraph(f"Without the groups that drove another course: {others}."))
     return Section("assistance", "Where assistance was given", tuple(blocks))
 
 
 def _map(results: StudyResults, helped: Sequence[str]) -> tuple[Block, ...]:
     """Return the map and how far its sources overlap; the reason where no position is known."""
-    steps = results.records.steps
+    steps = on_own_course(results.frames, results.records.steps)
     placed = steps[["x_m", "y_m"]].notna().all(axis=1)
     if not placed.any():
         why = "no position was recorded in any step"

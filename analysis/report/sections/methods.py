@@ -19,7 +19,16 @@ from protocols.declared import Comparison
 
 def methods_section(results: StudyResults) -> Section:
     """Return text that can be pasted into a paper; each sentence tells what was done."""
-    parts = (_design, _declared, _comparisons, _models, _questionnaires, _maps, _model_quality)
+    parts = (
+        _design,
+        _declared,
+        _comparisons,
+        _between,
+        _models,
+        _questionnaires,
+        _maps,
+        _model_quality,
+    )
     texts = [" ".join(part(results)) for part in parts]
     texts.append(f"Analysis: {_listed(analysis_versions())}.")
     texts += [_recorded(r) for r in recording_versions(results.frames.study)]
@@ -31,7 +40,9 @@ def _design(results: StudyResults) -> Iterator[str]:
     protocol = study.protocol
     seed = "" if study.seed is None else f", seed {study.seed}"
     course = study.course.name
-    yield f"Within-subject design; protocol {protocol.name!r} on course {course!r}{seed}."
+    groups = protocol.groups
+    between = f", {len(groups)} groups of participants ({', '.join(groups)})" if groups else ""
+    yield f"Within-subject design{between}; protocol {protocol.name!r} on course {course!r}{seed}."
     yield from _orders(results.frames)
     if results.frames.practised:
         yield "Practice laps were not analysed."
@@ -93,6 +104,7 @@ def _declared(results: StudyResults) -> Iterator[str]:
         return
     yield f"Declared by the protocol: {'; '.join(map(_declaration, declared))}."
     families = {c.family for c in results.declared if math.isfinite(c.p_holm)}
+    families |= {c.family for c in results.between if math.isfinite(c.p_holm)}
     if families:
         yield (
             "Confirmatory p-values were corrected after Holm within their family "
@@ -106,7 +118,8 @@ def _declaration(c: Comparison) -> str:
     if c.equivalence_margin is not None:
         within = f"±{c.equivalence_margin:g} {UNITS.get(c.outcome, '')}"
         margin = f", equivalence within {within.rstrip()}"
-    return f"{c.name} ({c.outcome}, {c.condition} − {c.reference}; {kind}{margin})"
+    groups = "" if c.groups is None else f", {c.groups[0]} − {c.groups[1]}"
+    return f"{c.name} ({c.outcome}, {' − '.join(c.conditions)}{groups}; {kind}{margin})"
 
 
 def _comparisons(results: StudyResults) -> Iterator[str]:
@@ -145,6 +158,14 @@ def _comparisons(results: StudyResults) -> Iterator[str]:
         yield (
             f"Distributions: {distributions}; descriptive, since the samples come from "
             "the same people."
+        )
+
+
+def _between(results: StudyResults) -> Iterator[str]:
+    if used := _used(c.test for c in results.between):
+        yield (
+            f"Groups were compared by people's values, each person once: {used}. Of lap times the "
+            "values are logs, or log ratios of condition and reference (group x condition)."
         )
 
 

@@ -33,6 +33,8 @@ def said_of(found: Registered) -> str:
         else f"{plural(found.deviations, 'part')} deviated"
     )
     amended = f", {plural(len(found.amendments), 'amendment')}" if found.amendments else ""
+    if found.before:
+        amended += f", {found.before} of {plural(found.recorded, 'session')} before the last one"
     return f"Registered {found.date} (plan {found.digest[:12]}){amended}: {kept}."
 
 

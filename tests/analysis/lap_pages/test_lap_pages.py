@@ -87,7 +87,7 @@ def test_what_a_study_calls_things_cannot_end_the_data(study, steps):
     """No tag, whatever a condition is called; and the page needs nothing from elsewhere."""
     hostile = "</script><script>window.hit = 1</script>"
     lap = lap_data(LapOf("P0001", 4, hostile, completed=True, time_s=1.0), steps, study.course)
-    html = render_laps(hostile, study.course, [lap], [lap["key"]], points=[lap])
+    html = render_laps(hostile, [study.course], [lap], [lap["key"]], points=[lap])
     assert html.count("<script") == 2
     assert held(html)["laps"][0]["condition"] == hostile
     assert "http://" not in html.replace("http://www.w3.org/2000/svg", "")

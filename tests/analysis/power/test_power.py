@@ -2,24 +2,35 @@
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
 from scipy import stats
 
+from analysis.attainable import least_n
 from analysis.frames import study_frames
 from analysis.lap_time_test import compare_laps
+from analysis.power.adjusted import adjusted, log_differences
 from analysis.power.assumptions import stated_effects
 from analysis.power.draws import draw_studies, pool_error
 from analysis.power.page import PowerStudy, power_json, write_power
-from analysis.power.pool import Pool, pool_of
-from analysis.power.power import adjusted, impossible_below, power_rows, smallest_n
-from analysis.power.vectorised import paired_t_p, pseudomedians, signed_rank_p, tost_p
+from analysis.power.pool import Pool, planned_practice, pool_of
+from analysis.power.power import power_rows, smallest_n
+from analysis.power.vectorised import (
+    paired_t_p,
+    pseudomedians,
+    rank_sum_rows,
+    signed_rank_p,
+    tost_p,
+)
+from analysis.stats.rank_sum import rank_sum
 from analysis.stats.signed_rank import signed_rank
 from analysis.stats.tost import paired_tost
 from protocols.declared import Comparison
 from protocols.files.errors import InputError
+from protocols.groups import Group
 from protocols.load import load_protocol
 from protocols.order import in_words, laps_of
 
@@ -95,14 +106,16 @@ def pool_of_laps(orders, effect=-0.12, practice=0.08, people=400, seed=0):
     logs = times + np.array([0.0, effect]) - practice * place
     seconds = np.exp(logs)
     return Pool(("a", "b"), logs, place, {"b faster": seconds[:, 1] - seconds[:, 0]},
-                {"b faster": float(seconds[:, 0].mean())}, order)  # fmt: skip
+                {"b faster": float(seconds[:, 0].mean())}, order, np.full(people, ""))  # fmt: skip
 
 
 def test_places_are_taken_off_where_orders_are_balanced():
     """Half a > b, half b > a: what is left does not depend on practice."""
     with_practice = pool_of_laps(["a > b", "b > a"])
     without = pool_of_laps(["a > b", "b > a"], practice=0.0)
-    drawn = draw_studies(with_practice, ["a > b", "b > a"] * 6, 50, np.random.default_rng(0))
+    drawn = draw_studies(
+        with_practice, [("", "a > b"), ("", "b > a")] * 6, 50, np.random.default_rng(0)
+    )
     differences = [np.diff(adjusted(p, drawn), axis=2) for p in (with_practice, without)]
     assert differences[0] == pytest.approx(differences[1])
     for study in drawn:
@@ -114,9 +127,10 @@ def test_many_studies_at_once_are_tested_as_the_report_does():
     """In a square, with a lap missing: the report's p of a study is the power computation's."""
     pool = pool_of_laps(["a > b", "b > a"], people=40)
     pool.log_times[3, 1] = pool.places[3, 1] = np.nan
-    drawn = draw_studies(pool, ["a > b", "b > a"] * 8, 5, np.random.default_rng(2))
+    drawn = draw_studies(pool, [("", "a > b"), ("", "b > a")] * 8, 5, np.random.default_rng(2))
     drawn[0, 0] = 3
-    p = signed_rank_p(np.diff(adjusted(pool, drawn), axis=2)[..., 0])
+    analysis = Comparison(name="b faster", condition="b", reference="a")
+    p = signed_rank_p(log_differences(pool, drawn, adjusted(pool, drawn), analysis))
     for study, found in zip(drawn, p, strict=True):
         rows = [
             (f"P{i:02d}", c, pool.places[who, at], np.exp(pool.log_times[who, at]))
@@ -128,6 +142,13 @@ def test_many_studies_at_once_are_tested_as_the_report_does():
         tested = compare_laps(table, "b", "a", "complete pairs", np.random.default_rng(0))
         assert tested.practice == "balanced"
         assert tested.test.p == pytest.approx(found)
+
+
+def test_a_square_is_planned_without_a_caution():
+    """Balanced as planned in a Williams square, confounded in a fixed order."""
+    for name, practice in (("four-lap-balanced", "balanced"), ("four-lap", "confounded")):
+        protocol = load_protocol(name)
+        assert planned_practice(protocol, protocol.analyses[0], 12) == practice
 
 
 def test_a_stated_effect_takes_only_the_shape_from_the_pool(study):
@@ -144,8 +165,38 @@ def test_a_stated_effect_takes_only_the_shape_from_the_pool(study):
     (own,) = power_rows(protocol, pools[0], (12,), {}, seed=0, studies=300)
     assert own.source == "cohort"
     assert own.power > stated[0][0].power
-    assert impossible_below(protocol, analysis) == 6
+    assert least_n(protocol, analysis) == 6
     assert power_rows(protocol, pools[0], (5,), {}, seed=0, studies=50)[0].power == 0
+
+
+def test_many_groups_at_once_are_compared_as_the_report_does():
+    """Row by row the same p, shift and width as ``rank_sum``; ties and missing people included."""
+    rng = np.random.default_rng(5)
+    first, second = rng.normal(0.5, 1, (12, 7)), rng.normal(0, 1, (12, 6))
+    first[2, 3] = second[3, 0] = np.nan
+    first[4, :2] = second[4, 0]
+    p, shift, width = rank_sum_rows(first, second)
+    for i, (a, b) in enumerate(zip(first, second, strict=True)):
+        found = rank_sum(a, b)
+        assert p[i] == pytest.approx(found.p)
+        assert shift[i] == pytest.approx(found.estimate)
+        assert width[i] == pytest.approx(found.high - found.low)
+
+
+def test_power_between_groups_grows_with_the_stated_effect():
+    """No effect: about 5%; the larger it is stated, the more power; the pool's own is ignored."""
+    protocol = load_protocol("four-lap")
+    between = Comparison(name="more", condition="b", reference="a", groups=("x", "y"))
+    changes = {"analyses": (between,), "groups": {"x": Group(), "y": Group(ratio=2)}}
+    protocol = protocol.model_copy(update=changes)
+    pool = pool_of_laps(["a > b"], practice=0.0)
+    groups = np.array(["x", "y", "y"] * 134)[: pool.size]
+    change = np.diff(pool.log_times, axis=1)[:, 0]
+    pool = replace(pool, groups=groups, differences={"more": change})
+    found = [power_rows(protocol, pool, (24,), {"more": e}, seed=0)[0].power for e in (0, 0.1, 0.3)]
+    assert 0.02 < found[0] < 0.07
+    assert found[0] < found[1] < found[2]
+    assert least_n(protocol, between) == 9  # 3 and 6: 2 of 84
 
 
 def test_a_larger_pool_has_a_smaller_error():
@@ -171,7 +222,9 @@ def test_a_study_is_a_pool_and_its_page_says_so(study, tmp_path):
     assert effects["the model helps"] == pytest.approx(math.log(0.9))
     rows = power_rows(study.protocol, pool, (2, 3), effects, seed=0, studies=40)
     page = write_power(tmp_path, PowerStudy(study.protocol, rows, pool.size, True, 0.8))
-    assert "To paste" in page.read_text(encoding="utf-8")
+    text = page.read_text(encoding="utf-8")
+    assert "To paste" in text
+    assert "gives no verdict on the condition" in text  # four-lap has one fixed order
     first = json.loads(power_json(rows))[0]
     assert set(first) == {"analysis", "n", "power", "mc_error", "pool_error", "source"}
     assert smallest_n(rows, "the model helps", 0.8) is None

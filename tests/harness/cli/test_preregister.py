@@ -2,6 +2,7 @@
 
 import pytest
 
+from protocols.record.header import read_header
 from protocols.registration import read_registration
 
 SHORT = """\
@@ -52,3 +53,33 @@ def test_a_study_follows_its_registration_and_no_other_plan(lad_study, tmp_path)
     found = lad_study("check", "study")
     assert found.code == 1
     assert "changed since it was registered" in found.out
+
+
+@pytest.mark.slow
+def test_an_amendment_takes_effect_in_a_study_under_way(lad_study, tmp_path):
+    """Two sessions before, two after: one directory, whole, and the report names which were which.
+
+    Without the amendment the changed plan is refused.
+    """
+    path = tmp_path / "short.yaml"
+    path.write_text(SHORT)
+    assert lad_study("preregister", "short.yaml", "--out", "plan").code == 0
+    run = ("run", "short.yaml", "--registration", "plan", "--jobs", "1", "--out", "study")
+    assert lad_study(*run).code == 0
+    before = read_header(tmp_path / "study")
+    path.write_text(SHORT.replace("participants: 2", "participants: 4") + "hold_s: 0.4\n")
+    refused = lad_study(*run)
+    assert (refused.code, "hold_s" in refused.err) == (2, True)
+    amend = ("preregister", "short.yaml", "--out", "plan", "--amend", "the link is slow")
+    assert lad_study(*amend).code == 0
+    done = lad_study(*run)
+    assert done.code == 0
+    assert "2 sessions were before it" in done.out
+    after = read_header(tmp_path / "study")
+    assert (after.digest, after.protocol.hold_s) == (before.digest, 0.4)
+    assert after.amended[0].sessions == ("P0001", "P0002")
+    page = (tmp_path / "study" / "report" / "index.html").read_text(encoding="utf-8")
+    assert "2 of 4 sessions before the last one" in page
+    assert "Before it: 2 (P0001, P0002); after it: 2 (P0003, P0004)" in page
+    assert lad_study("check", "study").code == 0
+    assert "4 of 4 sessions were there already" in lad_study(*run).out
