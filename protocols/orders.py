@@ -22,7 +22,13 @@ Order = tuple[str, ...]
 
 
 class Before(FileModel):
-    """A rule: one condition is driven before another one."""
+    """A rule: one condition is driven before another one.
+
+    Attributes
+    ----------
+    first, then
+        Names of two conditions: the first one is driven before the other.
+    """
 
     first: Name
     then: Name
