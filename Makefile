@@ -28,6 +28,7 @@ check: $(VENV)/installed-test
 
 docs: $(VENV)/installed-docs  ## Build the documentation site, strictly, without running the examples
 	$(BIN)/python -m sphinx -W --keep-going -q -b html -D plot_gallery=0 docs docs/_build/html
+	@! grep -rlE '<(script|link|img)[^>]*(src|href)="(https?:)?//' --include='*.html' docs/_build/html
 	@echo "The site: docs/_build/html/index.html"
 
 gallery: $(VENV)/installed-docs  ## The same, with every example run and its figures
