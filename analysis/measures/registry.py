@@ -115,6 +115,11 @@ MEASURES: tuple[Measure, ...] = (
 def measure(name: str) -> Measure:
     """Return the measure of this name; ``KeyError`` when there is none.
 
+    Parameters
+    ----------
+    name
+        As a column of the table of measures has it.
+
     Examples
     --------
     >>> measure("path_length_m").unit
