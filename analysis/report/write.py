@@ -47,6 +47,13 @@ def write_report(study_dir: Path, progress: Callable[[str], None] | None = None)
 def write_results(results: StudyResults, progress: Callable[[str], None] | None = None) -> Path:
     """Write the report of a study that is analysed already; see ``write_report``.
 
+    Parameters
+    ----------
+    results
+        As ``analyse`` returns them.
+    progress
+        Called with a few words about what is being done.
+
     Raises
     ------
     InputError

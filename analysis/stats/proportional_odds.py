@@ -113,6 +113,12 @@ def log_odds_ratios(tables: NDArray[np.float64]) -> NDArray[np.float64]:
     NDArray
         Shape (tables,); infinite where the likelihood has no maximum, 0 where only one answer
         occurs.
+
+    Examples
+    --------
+    >>> tables = np.array([[[10.0, 5.0], [5.0, 10.0]]])
+    >>> np.exp(log_odds_ratios(tables)).round(3)  # (10 * 10) / (5 * 5)
+    array([4.])
     """
     found = np.zeros(len(tables))
     occurs = tables.sum(axis=1) > 0
