@@ -88,6 +88,13 @@ def write_results(results: StudyResults, progress: Callable[[str], None] | None 
 def replace_folder(target: Path, contents: dict[str, bytes]) -> None:
     """Make a folder with these files, in place of whatever has its name.
 
+    Parameters
+    ----------
+    target
+        The folder; one that is there is replaced as a whole.
+    contents
+        By path in the folder: a file's bytes.
+
     Raises
     ------
     OSError
