@@ -29,7 +29,13 @@ class Pair(Protocol):
 
 
 def take_apart(pair: Pair) -> tuple[dict[str, Any], Arrays]:
-    """Return the header and the arrays of a saved assistant."""
+    """Return the header and the arrays of a saved assistant.
+
+    Parameters
+    ----------
+    pair
+        The assistant; it is not changed.
+    """
     window, arrays = window_arrays(pair.when.window)
     for name, process in (("when", pair.when), ("how", pair.how)):
         for key, array in state_arrays(process.state).items():
@@ -54,7 +60,17 @@ def take_apart(pair: Pair) -> tuple[dict[str, Any], Arrays]:
 
 
 def restore(pair: Pair, header: dict[str, Any], arrays: Arrays) -> None:
-    """Fill an untaught assistant of the same parameters with what ``take_apart`` returned."""
+    """Fill an untaught assistant of the same parameters with what ``take_apart`` returned.
+
+    Parameters
+    ----------
+    pair
+        An untaught assistant of the same parameters; it is changed.
+    header
+        As it was saved.
+    arrays
+        As they were saved, by name.
+    """
     if "tuned" in header:
         when, how = (GPHyperparameters.from_header(header["tuned"][n]) for n in ("when", "how"))
         pair.tuned = Tuned(when, how, header["tuned"]["steps"])

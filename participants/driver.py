@@ -44,10 +44,20 @@ class Driver(Protocol):
 def kind_of(driver: Driver) -> ParticipantKind:
     """Return a driver's ``kind``; synthetic for a driver without one.
 
+    Parameters
+    ----------
+    driver
+        Any driver.
+
     Raises
     ------
     ValueError
         When it is none of ``PARTICIPANT_KINDS``.
+
+    Examples
+    --------
+    >>> kind_of(object())
+    'synthetic'
     """
     kind: ParticipantKind = getattr(driver, "kind", "synthetic")
     if kind not in PARTICIPANT_KINDS:

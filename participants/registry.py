@@ -29,6 +29,16 @@ Code = Sequence[PartBeside]
 def make_driver(name: str, setup: DriverSetup, code: Code = ()) -> Driver:
     """Return the driver a protocol names.
 
+    Parameters
+    ----------
+    name
+        As a protocol has it in ``use``: a shipped driver, an installed one, or
+        ``module:factory``.
+    setup
+        Course, traits, random numbers and options.
+    code
+        Parts of modules beside the protocol file that a person has trusted; empty for none.
+
     Raises
     ------
     InputError
@@ -39,6 +49,16 @@ def make_driver(name: str, setup: DriverSetup, code: Code = ()) -> Driver:
 
 def make_impaired(name: str, setup: ImpairmentSetup, code: Code = ()) -> Driver:
     """Return a driver with the impairment a protocol names.
+
+    Parameters
+    ----------
+    name
+        As a protocol has it in ``use``: a shipped impairment, an installed one, or
+        ``module:factory``.
+    setup
+        The driver to be impaired, severity, random numbers and options.
+    code
+        Parts of modules beside the protocol file that a person has trusted; empty for none.
 
     Raises
     ------
@@ -53,6 +73,16 @@ def make_impaired(name: str, setup: ImpairmentSetup, code: Code = ()) -> Driver:
 def make_demonstrator(name: str, setup: DemonstratorSetup, code: Code = ()) -> Demonstrator:
     """Return the demonstrator a protocol names; the same one serves as a shadow.
 
+    Parameters
+    ----------
+    name
+        As a protocol has it in ``use``: a shipped demonstrator, an installed one, or
+        ``module:factory``.
+    setup
+        Course, random numbers and options.
+    code
+        Parts of modules beside the protocol file that a person has trusted; empty for none.
+
     Raises
     ------
     InputError
@@ -65,6 +95,16 @@ def make_demonstrator(name: str, setup: DemonstratorSetup, code: Code = ()) -> D
 def make_respondent(name: str, setup: RespondentSetup, code: Code = ()) -> Respondent:
     """Return the respondent a protocol names.
 
+    Parameters
+    ----------
+    name
+        As a protocol has it in ``use``: a shipped respondent, an installed one, or
+        ``module:factory``.
+    setup
+        Traits, instruments, random numbers and options.
+    code
+        Parts of modules beside the protocol file that a person has trusted; empty for none.
+
     Raises
     ------
     InputError
@@ -76,10 +116,24 @@ def make_respondent(name: str, setup: RespondentSetup, code: Code = ()) -> Respo
 def portable_driver_options(name: str, options: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """Return a driver's options in a form that needs no file: what they name is read now.
 
+    Parameters
+    ----------
+    name
+        The driver's, as a protocol has it.
+    options
+        As the protocol gives them.
+    folder
+        The protocol file's; paths in the options are relative to it.
+
     Raises
     ------
     InputError
         When a file that they name cannot be used.
+
+    Examples
+    --------
+    >>> portable_driver_options("autonomous", {"control_noise": 0.02}, Path())
+    {'control_noise': 0.02}
     """
     if name not in PORTABLE_OPTIONS:
         return dict(options)

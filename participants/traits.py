@@ -166,6 +166,11 @@ class ResponseStyle(_Ranged):
 def declared(kind: type) -> dict[str, Trait]:
     """Return the range and source of each trait of a dataclass, by name and in its order.
 
+    Parameters
+    ----------
+    kind
+        A dataclass whose fields are annotated with a ``Trait``.
+
     Examples
     --------
     >>> declared(ResponseStyle)["missing_share"].high

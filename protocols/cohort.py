@@ -15,7 +15,15 @@ Share = Annotated[float, Field(ge=0, le=1)]
 
 
 class AgeRange(FileModel):
-    """Ages of the people a synthetic cohort is drawn from, in years."""
+    """Ages of the people a synthetic cohort is drawn from, in years.
+
+    Attributes
+    ----------
+    lowest, highest
+        Nobody is younger, or older; in years.
+    mean, sd
+        Mean and standard deviation of the ages, in years.
+    """
 
     lowest: Annotated[float, Field(ge=0, le=120)] = 21
     highest: Annotated[float, Field(ge=0, le=120)] = 38
@@ -40,6 +48,13 @@ class Demographics(FileModel):
 
     The paper does not report handedness; the default share of left-handers is the estimate of
     Papadatou-Pastou et al. (2020), Psychological Bulletin 146(6), 481-524.
+
+    Attributes
+    ----------
+    age_years
+        How ages are distributed.
+    female_share, left_handed_share
+        Probability that a person is female, or left-handed.
     """
 
     age_years: AgeRange = AgeRange()
@@ -48,21 +63,47 @@ class Demographics(FileModel):
 
 
 class DriverChoice(FileModel):
-    """Who drives the wheelchair."""
+    """Who drives the wheelchair.
+
+    Attributes
+    ----------
+    use
+        A shipped driver, an installed package's, or ``module:factory`` beside the protocol file.
+    options
+        Settings of that driver, by name; the driver checks them.
+    """
 
     use: part_name(*DRIVERS) = "human"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
 
 
 class DemonstratorChoice(FileModel):
-    """Who watches and takes over, or as a shadow gives the command that does not count."""
+    """Who watches and takes over, or as a shadow gives the command that does not count.
+
+    Attributes
+    ----------
+    use
+        A shipped demonstrator, an installed package's, or ``module:factory`` beside the protocol
+        file.
+    options
+        Settings of that demonstrator, by name; the demonstrator checks them.
+    """
 
     use: part_name(*DEMONSTRATORS) = "attentive"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
 
 
 class RespondentChoice(FileModel):
-    """Who answers the questions."""
+    """Who answers the questions.
+
+    Attributes
+    ----------
+    use
+        A shipped respondent, an installed package's, or ``module:factory`` beside the protocol
+        file.
+    options
+        Settings of that respondent, by name; the respondent checks them.
+    """
 
     use: part_name(*RESPONDENTS) = "ordinal"  # type: ignore[valid-type]
     options: Options = Field(default_factory=dict)
@@ -73,10 +114,15 @@ class ImpairmentChoice(FileModel):
 
     Attributes
     ----------
+    use
+        A shipped impairment, an installed package's, or ``module:factory`` beside the protocol
+        file.
     share
         Probability that a participant has it; a participant has at most one.
     severity
         From none to severe; the impairment defines its meaning.
+    options
+        Settings of that impairment, by name; the impairment checks them.
     """
 
     use: part_name(*IMPAIRMENTS)  # type: ignore[valid-type]
@@ -107,10 +153,19 @@ class Cohort(FileModel):
     ----------
     participants
         How many.
-    driver, demonstrator, respondent
-        Who drives, helps and answers; null for a study without a demonstrator or a respondent.
-    demographics, impairments, traits
-        What synthetic people are drawn from.
+    driver
+        Who drives.
+    demonstrator
+        Who helps; null for a study without a demonstrator.
+    respondent
+        Who answers the questions; null for a study without a respondent.
+    demographics
+        Ages, genders and handedness that synthetic people are drawn from.
+    impairments
+        What the bodies of some participants do to their own commands. Nobody has more than one,
+        so the shares add up to 1 at most.
+    traits
+        Single traits distributed otherwise than in the calibrated cohort, by the trait's name.
     expected_dropout
         Share of participants expected to give no usable lap; planning takes it into account.
     """

@@ -95,6 +95,10 @@ class Instrument(FileModel):
 
     Attributes
     ----------
+    schema_version
+        Version of the file format; ``schema`` in a file.
+    name, title
+        What the instrument is called: the name stands in the record, the title in the report.
     anchors
         Labels of the scale's points, from 1 upwards; their number is the number of points. None
         where no item is answered by a point.
@@ -105,6 +109,8 @@ class Instrument(FileModel):
         stretched to it, such as [0, 100]; null for the mean as it is.
     source
         Where the wording comes from.
+    items
+        The statements and questions, in the order in which they are asked.
     """
 
     schema_version: Annotated[Literal[1], FormatVersion, Field(alias="schema")] = 1

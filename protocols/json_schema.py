@@ -8,8 +8,11 @@ import sys
 from pathlib import Path
 
 from pydantic import BaseModel
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
+from pydantic_core import core_schema
 
 from protocols.course.schema import Course
+from protocols.files.field_meanings import field_meanings, summary_of
 from protocols.instrument import Instrument
 from protocols.study import StudyProtocol
 
@@ -30,8 +33,22 @@ def json_schemas() -> dict[str, str]:
     return {name: _text(model) for name, model in _MODELS.items()}
 
 
+class WithMeanings(GenerateJsonSchema):
+    """Takes the description of each field from its model's docstring."""
+
+    def model_schema(self, schema: core_schema.ModelSchema) -> JsonSchemaValue:
+        """Return a model's schema with its summary, and each field's meaning."""
+        described = super().model_schema(schema)
+        model: type[BaseModel] = schema["cls"]
+        for name, meaning in field_meanings(model).items():
+            shown = model.model_fields[name].alias or name
+            described["properties"][shown]["description"] = meaning
+        return {**described, "description": summary_of(model)}
+
+
 def _text(model: type[BaseModel]) -> str:
-    schema = {"$schema": _DIALECT, **model.model_json_schema(by_alias=True)}
+    made = model.model_json_schema(by_alias=True, schema_generator=WithMeanings)
+    schema = {"$schema": _DIALECT, **made}
     return json.dumps(schema, indent=2, ensure_ascii=False) + "\n"
 
 

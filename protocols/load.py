@@ -24,27 +24,55 @@ from protocols.study import StudyProtocol
 
 
 def shipped_protocols() -> tuple[str, ...]:
-    """Return the names of the shipped protocols, sorted."""
+    """Return the names of the shipped protocols, sorted.
+
+    Examples
+    --------
+    >>> "four-lap" in shipped_protocols()
+    True
+    """
     return shipped_names("studies")
 
 
 def shipped_courses() -> tuple[str, ...]:
-    """Return the names of the shipped courses, sorted."""
+    """Return the names of the shipped courses, sorted.
+
+    Examples
+    --------
+    >>> shipped_courses()
+    ('lab-office', 'lab-office-mirror', 'ward-corridor')
+    """
     return shipped_names("courses")
 
 
 def shipped_instruments() -> tuple[str, ...]:
-    """Return the names of the shipped instruments, sorted."""
+    """Return the names of the shipped instruments, sorted.
+
+    Examples
+    --------
+    >>> shipped_instruments()
+    ('driving-assistance', 'nasa-tlx', 'sus')
+    """
     return shipped_names("instruments")
 
 
 def load_protocol(name_or_path: str) -> StudyProtocol:
     """Return a protocol as it is in its file, without looking up what it refers to.
 
+    Parameters
+    ----------
+    name_or_path
+        A shipped protocol's name, or a file's path.
+
     Raises
     ------
     InputError
         When there is no such file, or its content is not a protocol.
+
+    Examples
+    --------
+    >>> load_protocol("four-lap").cohort.participants
+    12
     """
     return validate(locate("studies", name_or_path).document(), StudyProtocol)
 
@@ -52,10 +80,20 @@ def load_protocol(name_or_path: str) -> StudyProtocol:
 def load_course(name_or_path: str) -> Course:
     """Return a course that can be driven.
 
+    Parameters
+    ----------
+    name_or_path
+        A shipped course's name, or a file's path.
+
     Raises
     ------
     InputError
         When there is no such file, its content is not a course, or it cannot be driven.
+
+    Examples
+    --------
+    >>> [gate.name for gate in load_course("lab-office").gates]
+    ['R1', 'R2', 'F']
     """
     return _course(locate("courses", name_or_path))
 
@@ -63,10 +101,20 @@ def load_course(name_or_path: str) -> Course:
 def load_instrument(name_or_path: str) -> Instrument:
     """Return a questionnaire.
 
+    Parameters
+    ----------
+    name_or_path
+        A shipped instrument's name, or a file's path.
+
     Raises
     ------
     InputError
         When there is no such file, or its content is not an instrument.
+
+    Examples
+    --------
+    >>> load_instrument("sus").score
+    (0.0, 100.0)
     """
     return validate(locate("instruments", name_or_path).document(), Instrument)
 
@@ -89,6 +137,12 @@ def resolve_study(
     ------
     InputError
         In one line: file, line, field, what is wrong and what is allowed.
+
+    Examples
+    --------
+    >>> study = resolve_study("four-lap", course="ward-corridor", participants=3)
+    >>> study.course.name, study.protocol.cohort.participants
+    ('ward-corridor', 3)
     """
     if participants is not None and not 1 <= participants <= 9999:
         raise InputError(f"participants: {participants} is out of range; allowed: 1 to 9999")
@@ -134,10 +188,20 @@ def _by_group(study: ResolvedStudy, courses: dict[str, Course]) -> dict[str, Any
 def check_file(name_or_path: str) -> ResolvedStudy | Course | Instrument:
     """Load a file of any kind, or anything that ships; a file's kind follows from its fields.
 
+    Parameters
+    ----------
+    name_or_path
+        A shipped file's name, or a file's path.
+
     Raises
     ------
     InputError
         When it is not a valid protocol, course or instrument.
+
+    Examples
+    --------
+    >>> check_file("lab-office").name
+    'lab-office'
     """
     if name_or_path in shipped_courses():
         return load_course(name_or_path)

@@ -16,6 +16,16 @@ class ModelChoice(FileModel):
 
     ``lad`` learns the demonstrator's command, as the paper's model does, ``lad-correction`` how it
     differs from the user's; both take ``parameters``. Any other model takes ``options``.
+
+    Attributes
+    ----------
+    use
+        A shipped model, an installed package's, or ``module:factory`` beside the protocol file.
+    parameters
+        Of ``lad`` and ``lad-correction``.
+    options
+        Settings of any other model, by name; the model checks them. In text, ``{participant}``
+        stands for the participant's id and ``{folder}`` for the protocol file's folder.
     """
 
     use: part_name(*MODELS) = LAD  # type: ignore[valid-type]

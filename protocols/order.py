@@ -44,6 +44,21 @@ def group_of(protocol: StudyProtocol, number: int, seed: int) -> str | None:
 
     Groups come in blocks as long as their ratios add up to, each block shuffled for itself: after
     every block their sizes have the ratio that the protocol asks for.
+
+    Parameters
+    ----------
+    protocol
+        The study.
+    number
+        The participant's number, from 1.
+    seed
+        The study's seed.
+
+    Examples
+    --------
+    >>> from protocols.load import load_protocol
+    >>> group_of(load_protocol("four-lap"), 1, 0) is None
+    True
     """
     slots = [name for name, group in protocol.groups.items() for _ in range(group.ratio)]
     if not slots:
@@ -52,7 +67,24 @@ def group_of(protocol: StudyProtocol, number: int, seed: int) -> str | None:
 
 
 def of_participant(protocol: StudyProtocol, number: int, seed: int) -> StudyProtocol:
-    """Return the protocol as it is for one participant: with what is different for the group."""
+    """Return the protocol as it is for one participant: with what is different for the group.
+
+    Parameters
+    ----------
+    protocol
+        The study.
+    number
+        The participant's number, from 1.
+    seed
+        The study's seed.
+
+    Examples
+    --------
+    >>> from protocols.load import load_protocol
+    >>> protocol = load_protocol("four-lap")
+    >>> of_participant(protocol, 1, 0) is protocol  # no groups in it
+    True
+    """
     name = group_of(protocol, number, seed)
     if name is None:
         return protocol
@@ -69,6 +101,11 @@ def of_participant(protocol: StudyProtocol, number: int, seed: int) -> StudyProt
 def in_words(laps: Sequence[PlannedLap]) -> str:
     """Return the order of the analysed laps, as the record keeps it.
 
+    Parameters
+    ----------
+    laps
+        In the order in which they are driven.
+
     Examples
     --------
     >>> from protocols.load import load_protocol
@@ -79,7 +116,19 @@ def in_words(laps: Sequence[PlannedLap]) -> str:
 
 
 def places(laps: Sequence[PlannedLap]) -> tuple[int | None, ...]:
-    """Return each lap's place among the analysed laps, counted from 1; None for practice."""
+    """Return each lap's place among the analysed laps, counted from 1; None for practice.
+
+    Parameters
+    ----------
+    laps
+        In the order in which they are driven.
+
+    Examples
+    --------
+    >>> from protocols.load import load_protocol
+    >>> places(load_protocol("four-lap").laps)
+    (None, 1, 2, 3, 4)
+    """
     counted = 0
     found: list[int | None] = []
     for lap in laps:

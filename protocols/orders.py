@@ -22,7 +22,13 @@ Order = tuple[str, ...]
 
 
 class Before(FileModel):
-    """A rule: one condition is driven before another one."""
+    """A rule: one condition is driven before another one.
+
+    Attributes
+    ----------
+    first, then
+        Names of two conditions: the first one is driven before the other.
+    """
 
     first: Name
     then: Name
@@ -71,13 +77,28 @@ def _tuples(value: Any) -> Any:
 
 
 def moved_conditions(orders: Orders, laps: Sequence[PlannedLap]) -> Order:
-    """Return the conditions that change places, in the order of the laps."""
+    """Return the conditions that change places, in the order of the laps.
+
+    Parameters
+    ----------
+    orders
+        The design.
+    laps
+        As the protocol has them.
+    """
     analysed = tuple(dict.fromkeys(lap.condition for lap in laps if not lap.practice))
     return tuple(c for c in analysed if not orders.over or c in orders.over)
 
 
 def designed_orders(orders: Orders, conditions: Order) -> tuple[Order, ...]:
     """Return the orders of a design, before any rule is looked at.
+
+    Parameters
+    ----------
+    orders
+        The design.
+    conditions
+        Those that change places.
 
     Examples
     --------
@@ -104,6 +125,11 @@ def williams_row(k: int) -> list[int]:
     Neighbours differ by every amount once, so that in the rows made from it by counting on each
     condition follows each other one equally often (with the mirrored rows, where k is odd).
 
+    Parameters
+    ----------
+    k
+        Number of conditions, 1 or more.
+
     References
     ----------
     Williams (1949), Australian J. of Scientific Research A 2(2), 149-168.
@@ -126,6 +152,19 @@ def put_in_order(laps: Sequence[PlannedLap], order: Order) -> tuple[PlannedLap, 
     """Return the laps with the analysed laps of some conditions in another order.
 
     Each goes with what is asked after it; practice laps and other conditions stay in their places.
+
+    Parameters
+    ----------
+    laps
+        As the protocol has them.
+    order
+        Conditions in the order in which they are to be driven.
+
+    Examples
+    --------
+    >>> laps = [PlannedLap(condition=c) for c in "ab"]
+    >>> [lap.condition for lap in put_in_order(laps, ("b", "a"))]
+    ['b', 'a']
     """
     moved = {lap.condition: lap for lap in laps if not lap.practice and lap.condition in order}
     following = iter(order)
@@ -160,7 +199,20 @@ def untaught(
 
 
 def keeps_rules(order: Order, rules: Sequence[Before]) -> bool:
-    """Tell whether an order keeps every rule about its conditions."""
+    """Tell whether an order keeps every rule about its conditions.
+
+    Parameters
+    ----------
+    order
+        Conditions in the order in which they are driven.
+    rules
+        Which one is driven before which.
+
+    Examples
+    --------
+    >>> keeps_rules(("a", "b"), [Before(first="b", then="a")])
+    False
+    """
     at = {condition: i for i, condition in enumerate(order)}
     pairs = ((at[r.first], at[r.then]) for r in rules if r.first in at and r.then in at)
     return all(first < then for first, then in pairs)
@@ -173,7 +225,19 @@ def legal_orders(
     *,
     taught: bool,
 ) -> tuple[Order, ...]:
-    """Return the orders of a design that keep the rules and can be taught."""
+    """Return the orders of a design that keep the rules and can be taught.
+
+    Parameters
+    ----------
+    orders
+        The design, with its rules.
+    laps
+        As the protocol has them.
+    conditions
+        By name.
+    taught
+        Whether the model may have been taught before the study.
+    """
     wanted = moved_conditions(orders, laps)
     return tuple(
         order
@@ -184,7 +248,15 @@ def legal_orders(
 
 
 def order_faults(orders: Orders, laps: Sequence[PlannedLap]) -> Iterator[Fault]:
-    """Find what is wrong with the orders of a protocol, whatever its conditions are."""
+    """Find what is wrong with the orders of a protocol, whatever its conditions are.
+
+    Parameters
+    ----------
+    orders
+        The design.
+    laps
+        As the protocol has them.
+    """
     analysed = [lap.condition for lap in laps if not lap.practice]
     known = dict.fromkeys(analysed)
     named: list[tuple[Location, str]] = [

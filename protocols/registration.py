@@ -96,7 +96,19 @@ class Registration:
 
 
 def plan_of(study: ResolvedStudy) -> dict[str, Any]:
-    """Return everything that a registration freezes, as plain data."""
+    """Return everything that a registration freezes, as plain data.
+
+    Parameters
+    ----------
+    study
+        The study as it is going to be run.
+
+    Examples
+    --------
+    >>> from protocols.load import resolve_study
+    >>> plan_of(resolve_study("four-lap"))["participants"]
+    12
+    """
     unregistered = study.protocol.model_copy(update={"registration": None})
     return {
         "study": identity(replace(study, protocol=unregistered), None),
@@ -173,6 +185,11 @@ def _earlier(folder: Path) -> Registration | None:
 def read_registration(folder: Path) -> Registration:
     """Return a registration, every file verified.
 
+    Parameters
+    ----------
+    folder
+        Where ``write_registration`` put it.
+
     Raises
     ------
     InputError
@@ -234,6 +251,13 @@ def _canonical(plan: Mapping[str, Any]) -> bytes:
 def registered(study: ResolvedStudy, registration: Registration) -> ResolvedStudy:
     """Return a study as one that follows a registration.
 
+    Parameters
+    ----------
+    study
+        The study as it is going to be run.
+    registration
+        The plan that it follows.
+
     Raises
     ------
     InputError
@@ -251,7 +275,15 @@ def registered(study: ResolvedStudy, registration: Registration) -> ResolvedStud
 
 
 def plan_differences(study: ResolvedStudy, registration: Registration) -> Iterator[str]:
-    """Yield in words how a study differs from the plan that holds; fewer participants do not."""
+    """Yield in words how a study differs from the plan that holds; fewer participants do not.
+
+    Parameters
+    ----------
+    study
+        The study as it is going to be run.
+    registration
+        The plan to compare with: its last amendment.
+    """
     mine = plan_of(study)
     yield from identity_differences(registration.plan["study"], mine["study"])
     if mine["participants"] > registration.participants:
@@ -262,7 +294,15 @@ def plan_differences(study: ResolvedStudy, registration: Registration) -> Iterat
 
 
 def copy_registration(registration: Registration, study_folder: Path) -> None:
-    """Put a registration into the directory of the study that follows it, byte for byte."""
+    """Put a registration into the directory of the study that follows it, byte for byte.
+
+    Parameters
+    ----------
+    registration
+        As it was read and verified.
+    study_folder
+        The study directory.
+    """
     for source in sorted(registration.folder.rglob("*")):
         if source.is_file():
             target = study_folder / REGISTRATION / source.relative_to(registration.folder)
@@ -271,7 +311,15 @@ def copy_registration(registration: Registration, study_folder: Path) -> None:
 
 
 def registration_faults(folder: Path, study: ResolvedStudy) -> Iterator[str]:
-    """Yield what is wrong with the registration that a study directory holds, if it follows one."""
+    """Yield what is wrong with the registration that a study directory holds, if it follows one.
+
+    Parameters
+    ----------
+    folder
+        The study directory.
+    study
+        What its ``study.yaml`` says.
+    """
     digest = study.protocol.registration
     if digest is None:
         return

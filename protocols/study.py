@@ -46,10 +46,14 @@ class StudyProtocol(FileModel):
     ----------
     schema_version
         Version of the file format; ``schema`` in a file.
-    name, title, description
-        What the study is called, and what it is about.
+    name, title
+        What the study is called: the short name stands in file names, the title in the report.
+    description
+        What the study is about.
     course
         A shipped course's name, or a file's path relative to the protocol file.
+    cohort
+        Who takes part.
     conditions
         Ways of driving a lap, by name.
     laps
@@ -64,6 +68,10 @@ class StudyProtocol(FileModel):
         Models that others have taught, by the name that conditions give them.
     demonstrators
         Further demonstrators, by the name that conditions give them; they teach the same model.
+    exclusion
+        Rules that exclude a participant from every analysis.
+    analyses
+        Comparisons declared in advance.
     registration
         SHA-256 of the registration that the study follows; filled in by ``run --registration``.
     control_period_s

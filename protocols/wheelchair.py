@@ -42,6 +42,11 @@ LASER_HEIGHT = 0.30
 def within_limits(command: Command) -> Command:
     """Return the nearest command the chair accepts.
 
+    Parameters
+    ----------
+    command
+        Velocities asked for, in m/s and rad/s.
+
     Raises
     ------
     ValueError

@@ -58,6 +58,11 @@ def export_study(
 def new_folder(target: Path) -> Iterator[Path]:
     """Yield a folder to fill, which gets the target's name when all has gone well.
 
+    Parameters
+    ----------
+    target
+        The folder; it must not exist yet, or be empty.
+
     Raises
     ------
     InputError

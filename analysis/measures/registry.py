@@ -113,7 +113,17 @@ MEASURES: tuple[Measure, ...] = (
 
 
 def measure(name: str) -> Measure:
-    """Return the measure of this name; ``KeyError`` when there is none.
+    """Return the measure of this name.
+
+    Parameters
+    ----------
+    name
+        As a column of the table of measures has it.
+
+    Raises
+    ------
+    KeyError
+        When there is none.
 
     Examples
     --------

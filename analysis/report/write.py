@@ -47,6 +47,13 @@ def write_report(study_dir: Path, progress: Callable[[str], None] | None = None)
 def write_results(results: StudyResults, progress: Callable[[str], None] | None = None) -> Path:
     """Write the report of a study that is analysed already; see ``write_report``.
 
+    Parameters
+    ----------
+    results
+        As ``analyse`` returns them.
+    progress
+        Called with a few words about what is being done.
+
     Raises
     ------
     InputError
@@ -82,6 +89,13 @@ def write_results(results: StudyResults, progress: Callable[[str], None] | None 
 
 def replace_folder(target: Path, contents: dict[str, bytes]) -> None:
     """Make a folder with these files, in place of whatever has its name.
+
+    Parameters
+    ----------
+    target
+        The folder; one that is there is replaced as a whole.
+    contents
+        By path in the folder: a file's bytes.
 
     Raises
     ------

@@ -18,6 +18,13 @@ Statistic = Callable[..., NDArray[np.float64]]
 def why_no_interval(interval: tuple[float, float], n: int) -> tuple[str, ...]:
     """Return the note that a bootstrap interval is missing, and why; nothing where there is one.
 
+    Parameters
+    ----------
+    interval
+        Its ends; NaN where there is none.
+    n
+        Participants.
+
     Examples
     --------
     >>> why_no_interval((float("nan"), float("nan")), 5)
@@ -61,6 +68,13 @@ def bca_interval(
     References
     ----------
     Efron (1987), JASA 82(397), 171-185.
+
+    Examples
+    --------
+    >>> sample = np.arange(10.0)
+    >>> low, high = bca_interval((sample,), np.mean, np.random.default_rng(0))
+    >>> bool(low < sample.mean() < high)
+    True
     """
     if len(samples[0]) < FEWEST or all(np.ptp(sample) == 0 for sample in samples):
         return math.nan, math.nan

@@ -29,6 +29,12 @@ def cohen_dz(differences: Sample, rng: np.random.Generator, level: float = 0.95)
     References
     ----------
     Lakens (2013), Frontiers in Psychology 4, 863.
+
+    Examples
+    --------
+    >>> rng = np.random.default_rng(0)
+    >>> round(cohen_dz(np.array([1.0, 2.0, 2.0, 3.0]), rng).estimate, 3)  # 2 / sd
+    2.449
     """
     d = settled(differences)
     if len(d) < 2:
@@ -67,6 +73,12 @@ def rank_biserial(differences: Sample, rng: np.random.Generator, level: float = 
     References
     ----------
     Kerby (2014), Comprehensive Psychology 3, 11.IT.3.1.
+
+    Examples
+    --------
+    >>> rng = np.random.default_rng(0)
+    >>> rank_biserial(np.array([1.0, 2.0, -3.0, 4.0]), rng).estimate  # (7 - 3) / 10
+    0.4
     """
     d = settled(differences)
     if len(d) == 0:

@@ -64,7 +64,20 @@ def lap_time_design(laps: pd.DataFrame, reference: str) -> Design:
 
 
 def indicator(column: pd.Series, value: object) -> NDArray[np.float64]:
-    """Return 1 where a column has a value, 0 elsewhere."""
+    """Return 1 where a column has a value, 0 elsewhere.
+
+    Parameters
+    ----------
+    column
+        One value per lap.
+    value
+        The value to look for.
+
+    Examples
+    --------
+    >>> indicator(pd.Series(["limited", "baseline"]), "limited")
+    array([1., 0.])
+    """
     return np.asarray(column.to_numpy() == value, dtype=np.float64)
 
 
@@ -74,6 +87,15 @@ def inflation(
     """Return how many times more columns inflate a contrast's variance, for the worst one.
 
     Within participants, where the contrasts are estimated; infinite without any information.
+
+    Parameters
+    ----------
+    matrix
+        Shape (laps, columns): the design, its first column the intercept.
+    wider
+        Shape (laps, more columns): the same columns, and more.
+    participants
+        Who drove each lap.
     """
     if wider.shape == matrix.shape or matrix.shape[1] < 2:
         return math.inf
@@ -85,7 +107,22 @@ def inflation(
 
 
 def within_people(matrix: NDArray[np.float64], participants: pd.Series) -> NDArray[np.float64]:
-    """Return what is left of each column within participants."""
+    """Return what is left of each column within participants.
+
+    Parameters
+    ----------
+    matrix
+        Shape (laps, columns).
+    participants
+        Who drove each lap.
+
+    Examples
+    --------
+    >>> within_people(np.array([[1.0], [3.0], [5.0]]), pd.Series(["P1", "P1", "P2"]))
+    array([[-1.],
+           [ 1.],
+           [ 0.]])
+    """
     codes = pd.factorize(participants)[0]
     sums = np.zeros((codes.max() + 1, matrix.shape[1]))
     np.add.at(sums, codes, matrix)

@@ -115,6 +115,12 @@ def log_odds_ratios(tables: NDArray[np.float64]) -> NDArray[np.float64]:
     NDArray
         Shape (tables,); infinite where the likelihood has no maximum, 0 where only one answer
         occurs.
+
+    Examples
+    --------
+    >>> tables = np.array([[[10.0, 5.0], [5.0, 10.0]]])
+    >>> np.exp(log_odds_ratios(tables)).round(3)  # (10 * 10) / (5 * 5)
+    array([4.])
     """
     # Resamples of few people repeat each other: each different table is climbed once.
     different, where = np.unique(tables.reshape(len(tables), -1), axis=0, return_inverse=True)

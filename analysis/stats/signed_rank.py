@@ -78,7 +78,20 @@ def signed_rank(differences: Sample, *, zeros: Zeros = "pratt", level: float = 0
 def signed_ranks(
     differences: NDArray[np.float64], zeros: Zeros
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the non-zero differences and the ranks of their sizes."""
+    """Return the non-zero differences and the ranks of their sizes.
+
+    Parameters
+    ----------
+    differences
+        Shape (pairs,): none of them missing.
+    zeros
+        Whether zeros are ranked and then dropped (``pratt``), or dropped first.
+
+    Examples
+    --------
+    >>> signed_ranks(np.array([0.0, -2.0, 1.0]), "pratt")
+    (array([-2.,  1.]), array([3., 2.]))
+    """
     nonzero = differences != 0
     if zeros == "wilcoxon":
         kept = differences[nonzero]

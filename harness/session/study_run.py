@@ -40,7 +40,22 @@ class StudyRun:
 
 
 def of_one(run: StudyRun, number: int) -> StudyRun:
-    """Return the study as it is for one participant: with what is different for the group."""
+    """Return the study as it is for one participant: with what is different for the group.
+
+    Parameters
+    ----------
+    run
+        The study, for all participants.
+    number
+        The participant's number, from 1.
+
+    Examples
+    --------
+    >>> from protocols.load import resolve_study
+    >>> run = StudyRun(resolve_study("four-lap"), seed=0)
+    >>> of_one(run, 1) == run  # no groups in it
+    True
+    """
     slot = run.slot_of(number)
     protocol = of_participant(run.study.protocol, slot, run.seed)
     group = group_of(run.study.protocol, slot, run.seed)
@@ -55,6 +70,11 @@ def portable(run: StudyRun) -> StudyRun:
 
     Files that the driver's options name are read here and now: sessions may run on machines that
     do not have them.
+
+    Parameters
+    ----------
+    run
+        The study as it was loaded.
 
     Raises
     ------

@@ -19,7 +19,19 @@ MIN_STEP = 1e-3
 
 
 class Wall(FileModel):
-    """A wall along a polyline; its faces stand half a thickness to either side."""
+    """A wall along a polyline; its faces stand half a thickness to either side.
+
+    Attributes
+    ----------
+    name
+        What the wall is called in messages.
+    points
+        Corners of the polyline, each [x, y] in m.
+    closed
+        Whether a last piece leads back to the first corner.
+    thickness, height
+        Of the wall, in m.
+    """
 
     name: Name
     points: Annotated[tuple[Point, ...], Field(min_length=2, max_length=1000)]
@@ -29,7 +41,19 @@ class Wall(FileModel):
 
 
 class Furniture(FileModel):
-    """A box on the floor: centre, heading of its length, and size in metres."""
+    """A box on the floor: centre, heading of its length, and size in metres.
+
+    Attributes
+    ----------
+    name
+        What the piece is called in messages.
+    x, y
+        Its centre, in m.
+    heading
+        Direction of its length, in rad, anticlockwise from the x axis.
+    length, width, height
+        Its size, in m.
+    """
 
     name: Name
     x: Metres
@@ -41,7 +65,15 @@ class Furniture(FileModel):
 
 
 class Start(FileModel):
-    """Where a lap starts: the midpoint of the driven axle and the heading in radians."""
+    """Where a lap starts: the midpoint of the driven axle and the heading in radians.
+
+    Attributes
+    ----------
+    x, y
+        The midpoint of the driven axle, in m.
+    heading
+        Where the chair looks, in rad, anticlockwise from the x axis.
+    """
 
     x: Metres
     y: Metres
@@ -49,7 +81,15 @@ class Start(FileModel):
 
 
 class Gate(FileModel):
-    """A line to cross; gates count only in their order."""
+    """A line to cross; gates count only in their order.
+
+    Attributes
+    ----------
+    name
+        Unique name; the record names the gate by it.
+    left, right
+        Ends of the line, seen in the direction of travel, each [x, y] in m.
+    """
 
     name: Name
     left: Point
@@ -57,7 +97,17 @@ class Gate(FileModel):
 
 
 class Section(FileModel):
-    """A stretch of the centreline, up to an arc length in metres (the last one: to the end)."""
+    """A stretch of the centreline, up to an arc length in metres (the last one: to the end).
+
+    Attributes
+    ----------
+    name
+        Unique name; tables and figures show it.
+    kind
+        What the driver has to do there; sharp right turns are what the paper limits.
+    until
+        Arc length along the centreline at which it ends, in m; null for the last one.
+    """
 
     name: Name
     kind: SectionKind
@@ -68,6 +118,25 @@ class Course(FileModel):
     """Walls, furniture, start, ordered gates and a centreline cut into labelled sections.
 
     The centreline is for metrics and for drivers with a map; it ends at the last gate.
+
+    Attributes
+    ----------
+    schema_version
+        Version of the file format; ``schema`` in a file.
+    name, title
+        What the course is called: the name stands in the record, the title in the report.
+    description
+        What the course is like, and where it comes from.
+    walls, furniture
+        What the chair can hit, and what the laser sees.
+    start
+        Where a lap starts.
+    gates
+        In the order in which they must be crossed; a lap ends at the last one.
+    centreline
+        The way through the gates, each point [x, y] in m.
+    sections
+        The centreline cut into labelled stretches, in order.
     """
 
     schema_version: Annotated[Literal[1], FormatVersion, Field(alias="schema")] = 1

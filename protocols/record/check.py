@@ -53,6 +53,13 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
     the sessions, the codebook with the schema, and the sessions with the protocol. Of a study
     that was recorded elsewhere, which has no checksums, every table is read.
 
+    Parameters
+    ----------
+    folder
+        The study directory; nothing in it is changed.
+    tell
+        Called with a few words about what is being read; None for no one.
+
     Raises
     ------
     InputError
@@ -95,7 +102,13 @@ def _mend(header: StudyHeader, session: Path, again: str) -> str:
 
 
 def check_remarks(folder: Path) -> tuple[str, ...]:
-    """Return what is read with a repair in a study directory without faults, one line each."""
+    """Return what is read with a repair in a study directory without faults, one line each.
+
+    Parameters
+    ----------
+    folder
+        A study directory that ``check_study`` finds nothing wrong with.
+    """
     return open_study(folder).remarks
 
 

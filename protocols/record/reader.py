@@ -245,7 +245,13 @@ class Study:
 
 
 def off_scale(study: Study) -> Iterator[tuple[int, str]]:
-    """Yield the row of every answer that is no point of its instrument's scale, and a message."""
+    """Yield the row of every answer that is no point of its instrument's scale, and a message.
+
+    Parameters
+    ----------
+    study
+        Its answers are those of the survey table.
+    """
     answers = study.surveys
     given = answers["response"]
     for instrument in study.instruments:
@@ -260,6 +266,11 @@ def off_scale(study: Study) -> Iterator[tuple[int, str]]:
 
 def open_study(folder: Path | str) -> Study:
     """Open a study directory.
+
+    Parameters
+    ----------
+    folder
+        The study directory; nothing in it is changed, and none of its code runs.
 
     Raises
     ------

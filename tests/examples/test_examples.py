@@ -1,9 +1,11 @@
-"""The examples read the exports as they are."""
+"""The examples run as they stand, and read the exports as they are."""
 
 import json
+import os
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -89,3 +91,19 @@ def test_the_layouts_topics_are_exported():
     assert shown <= exported
     panels = set(re.findall(r'"(\w+!\w+)"', json.dumps(layout["layout"])))
     assert panels == set(layout["configById"])
+
+
+@pytest.mark.parametrize("script", sorted(EXAMPLES.glob("example_*.py")), ids=lambda p: p.stem)
+def test_an_example_of_the_gallery_runs_as_it_stands(script, tmp_path):
+    """From top to bottom, with few people; it shows what its commands print."""
+    environment = {"LAD_STUDY_QUICK": "1", "MPLBACKEND": "agg", "TMPDIR": str(tmp_path)}
+    ended = subprocess.run(  # noqa: S603  # our own example
+        [sys.executable, str(script)],
+        cwd=tmp_path,
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ended.returncode == 0, ended.stderr
+    assert ended.stdout
