@@ -112,6 +112,11 @@ def response_times_of(respondent: Any) -> tuple[float | None, ...] | None:
     """Return how long each of a respondent's last answers took, s; None where that is not known.
 
     A living one has ``response_times``; simulated ones take no time.
+
+    Parameters
+    ----------
+    respondent
+        Who has answered, living or simulated.
     """
     times = getattr(respondent, "response_times", None)
     return None if times is None else times()

@@ -230,7 +230,15 @@ def _verified(path: Path, digest: str) -> bytes:
 
 
 def plan_study(registration: Registration, number: int) -> ResolvedStudy:
-    """Return the study as a plan has it: 0 for the first one, else the amendment of that number."""
+    """Return the study as one of a registration's plans has it.
+
+    Parameters
+    ----------
+    registration
+        The plan that came first, and its amendments.
+    number
+        0 for the first plan, else the amendment of that number.
+    """
     content = registration.plans[number]["study"]
     protocol = registration.protocols[number]
     return ResolvedStudy(

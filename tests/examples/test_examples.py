@@ -19,6 +19,13 @@ from protocols.record.reader import open_study
 EXAMPLES = Path(__file__).parents[2] / "examples"
 R = shutil.which("Rscript")
 
+# These take about half a minute each: in the long form.
+LONG = {"example_1_paper", "example_2_own_assistant", "example_5_sizing", "example_6_bag_to_report"}
+GALLERY = [
+    pytest.param(path, id=path.stem, marks=[pytest.mark.slow] if path.stem in LONG else [])
+    for path in sorted(EXAMPLES.glob("example_*.py"))
+]
+
 PROTOCOL = """\
 schema: 1
 name: example
@@ -93,7 +100,7 @@ def test_the_layouts_topics_are_exported():
     assert panels == set(layout["configById"])
 
 
-@pytest.mark.parametrize("script", sorted(EXAMPLES.glob("example_*.py")), ids=lambda p: p.stem)
+@pytest.mark.parametrize("script", GALLERY)
 def test_an_example_of_the_gallery_runs_as_it_stands(script, tmp_path):
     """From top to bottom, with few people; it shows what its commands print."""
     environment = {"LAD_STUDY_QUICK": "1", "MPLBACKEND": "agg", "TMPDIR": str(tmp_path)}
