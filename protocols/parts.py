@@ -1,6 +1,6 @@
 """Where the parts that a protocol names come from. Nothing here runs a part's code."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 from typing import NamedTuple
@@ -41,6 +41,15 @@ def named_parts(protocol: StudyProtocol) -> Iterator[NamedPart]:
     for i, impairment in enumerate(cohort.impairments):
         yield NamedPart(("cohort", "impairments", i, "use"), "impairment", impairment.use)
     yield NamedPart(("model", "use"), "model", protocol.model.use)
+    for name, further in protocol.demonstrators.items():
+        yield NamedPart(("demonstrators", name, "use"), "demonstrator", further.use)
+    for name, group in protocol.groups.items():
+        if group.model is not None:
+            yield NamedPart(("groups", name, "model", "use"), "model", group.model.use)
+        if group.demonstrator is not None:
+            yield NamedPart(
+                ("groups", name, "demonstrator", "use"), "demonstrator", group.demonstrator.use
+            )
 
 
 def installed_part(use: str) -> EntryPoint | None:
@@ -88,6 +97,24 @@ def parts_beside(
     if faults and document is not None:
         raise document.error(faults)
     return tuple(beside)
+
+
+def models_beside(names: Iterable[str], folder: Path) -> tuple[PartBeside, ...]:
+    """Return the models among names that are in modules of a folder.
+
+    Parameters
+    ----------
+    names
+        As a command line has them.
+    folder
+        Where the modules are.
+    """
+    found = ((name, module_beside(folder, name)) for name in dict.fromkeys(names))
+    return tuple(
+        PartBeside("MODEL", name, module, code_digest(module))
+        for name, module in found
+        if module is not None and not shipped_factory("model", name)
+    )
 
 
 def installed_parts(protocol: StudyProtocol, beside: tuple[PartBeside, ...]) -> dict[str, str]:

@@ -2,13 +2,14 @@
 
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from harness.running.runner import Tell, run_study
 from harness.session.model import make_model, saved
 from harness.session.study_run import StudyRun
 from protocols.benchmark import DEMONSTRATIONS, SETTINGS, Setting, benchmark_protocol
+from protocols.code_beside import PartBeside
 from protocols.files.errors import InputError
 from protocols.load import load_course
 from protocols.model_choice import ModelChoice
@@ -47,7 +48,7 @@ class Cell:
     folder: Path
 
 
-def entry_of(name: str) -> Entry:
+def entry_of(name: str, code: Sequence[PartBeside] = ()) -> Entry:
     """Return the assistant that a person names.
 
     Parameters
@@ -55,6 +56,8 @@ def entry_of(name: str) -> Entry:
     name
         A shipped model, or ``module:factory``; ``+evidence`` behind a shipped one asks for
         ``tune: evidence``.
+    code
+        Models of a person's own that may be run.
 
     Raises
     ------
@@ -70,7 +73,7 @@ def entry_of(name: str) -> Entry:
     except ValueError as error:
         reason = str(error).splitlines()[2].strip() if "\n" in str(error) else str(error)
         raise InputError(f"MODEL {name!r}: {reason}") from None
-    make_model(model)
+    make_model(model, code=code)
     return Entry(name.replace(":", "-").replace(".", "-"), model)
 
 
@@ -82,6 +85,7 @@ def plan(
     *,
     settings: Sequence[Setting] = SETTINGS,
     demonstrations: tuple[int, ...] = DEMONSTRATIONS,
+    code: Sequence[PartBeside] = (),
 ) -> tuple[Cell, ...]:
     """Return the studies of a benchmark, in the order to be run.
 
@@ -99,13 +103,15 @@ def plan(
         Participants of every study, 1 or more.
     settings, demonstrations
         As ``protocols.benchmark`` has them.
+    code
+        Models of a person's own that may be run.
 
     Raises
     ------
     InputError
         When an assistant is named twice or cannot be made, or a course cannot be used.
     """
-    entries = [entry_of(name) for name in names]
+    entries = [entry_of(name, code) for name in names]
     if len({entry.label for entry in entries}) < len(entries):
         raise InputError(f"MODEL: given twice in {' '.join(names)}; allowed: each once")
     cells = []
@@ -114,14 +120,15 @@ def plan(
         for entry in entries:
             model = entry.model
             if setting.taught_on is not None:
-                if saved(make_model(model)) is None:
+                if saved(make_model(model, code=code)) is None:
                     continue
                 path = f"{{folder}}/{setting.taught_on}/{entry.label}/{SESSIONS}/{{participant}}"
                 options = {"path": f"{path}/{MODEL_FILE}"}
                 model = ModelChoice(use="taught", options=options)
             protocol = benchmark_protocol(setting, model, replicates, demonstrations)
-            study = ResolvedStudy(protocol, course, ())
-            run = StudyRun(replace(study, folder=out), seed)
+            beside = tuple(part for part in code if part.use == protocol.model.use)
+            study = ResolvedStudy(protocol, course, (), folder=out, beside=beside, trusted=True)
+            run = StudyRun(study, seed)
             cells.append(Cell(entry, setting, run, out / setting.name / entry.label))
     return tuple(cells)
 

@@ -52,19 +52,29 @@ def benchmark(
     scheduler: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="Dask scheduler, instead of --jobs.")
     ] = None,
+    trust: Annotated[
+        bool, typer.Option("--trust", help="Allow the code of a module here, as it is now.")
+    ] = False,
 ) -> int:
     """Compare assistants over courses, limitations, drivers and demonstrators.
 
     Writes benchmark.md (a table that ranks, with paired intervals), cells.csv and measures.csv.
     A run that was stopped goes on where it was when the same command is given again.
 
-    Example: lad-study benchmark lad-correction mine.model:make --setting right --replicates 8
+    A model of your own is module:factory of a module in this folder; it runs with --trust only,
+    and after that until its file changes.
+
+    Example: lad-study benchmark lad-correction mine:make --trust --setting right --replicates 8
     """
     check_least("--seed", seed, 0)
     check_least("--replicates", replicates, 1)
     check_least("--jobs", jobs, 1)
     from harness.benchmark.studies import plan
+    from harness.cli.trust import trust_code
+    from protocols.parts import models_beside
 
+    own = models_beside(models or (), Path.cwd())
+    trust_code(own, asked=trust)
     folder = out or Path("benchmarks") / f"seed{seed}"
     cells = plan(
         folder.resolve(),
@@ -73,6 +83,7 @@ def benchmark(
         replicates,
         settings=_settings(setting, course),
         demonstrations=_numbers(demonstrations),
+        code=own,
     )
     return _benchmark(folder, cells, jobs, scheduler)
 

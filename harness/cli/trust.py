@@ -1,7 +1,7 @@
 """Whether a protocol's own code may be run: a person allows it, once for each file and content."""
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -30,17 +30,39 @@ def trusted_study(study: ResolvedStudy, *, asked: bool) -> ResolvedStudy:
     InputError
         When the protocol names code beside it that has not been trusted as it is now.
     """
+    trust_code(study.beside, installed_parts(study.protocol, study.beside), asked=asked)
+    return replace(study, trusted=True)
+
+
+def trust_code(
+    parts: Sequence[PartBeside], installed: Mapping[str, str] | None = None, *, asked: bool
+) -> None:
+    """Say which code will run, and refuse what has not been trusted as it is now.
+
+    Parameters
+    ----------
+    parts
+        In modules of a person's own.
+    installed
+        Parts of installed packages: name to package.
+    asked
+        Whether the command was given ``--trust``.
+
+    Raises
+    ------
+    InputError
+        When code has not been trusted as it is now.
+    """
     known = _read()
-    new = [part for part in study.beside if part.digest not in known.get(str(part.module), ())]
+    new = [part for part in parts if part.digest not in known.get(str(part.module), ())]
     if new and not asked:
         raise InputError(*(_refusal(part) for part in new))
-    installed = installed_parts(study.protocol, study.beside)
-    names = [*_files(study.beside), *(f"{use} of {package}" for use, package in installed.items())]
+    named = [f"{use} of {package}" for use, package in (installed or {}).items()]
+    names = [*_files(parts), *named]
     if names:
         complain(f"Runs code that is not this program's: {', '.join(names)}")
     if new:
         _write(known, new)
-    return replace(study, trusted=True)
 
 
 def _refusal(part: PartBeside) -> str:

@@ -104,6 +104,7 @@ def test_the_layouts_topics_are_exported():
 def test_an_example_of_the_gallery_runs_as_it_stands(script, tmp_path):
     """From top to bottom, with few people; it shows what its commands print."""
     environment = {"LAD_STUDY_QUICK": "1", "MPLBACKEND": "agg", "TMPDIR": str(tmp_path)}
+    environment |= {"XDG_STATE_HOME": str(tmp_path / "state")}  # what is trusted is forgotten
     ended = subprocess.run(  # noqa: S603  # our own example
         [sys.executable, str(script)],
         cwd=tmp_path,

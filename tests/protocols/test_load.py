@@ -238,3 +238,23 @@ def test_a_damaged_protocol_is_valid_or_one_line(
     path.write_text("".join(lines), encoding="utf-8")
     said = _said(path)
     assert said is None or (said.startswith(f"{path}:") and "\n" not in said)
+
+
+@pytest.mark.parametrize(
+    ("field", "where"),
+    [
+        ("groups: {one: {model: {use: 'os:system'}}, two: {}}", "groups.one.model.use"),
+        (
+            "groups: {one: {demonstrator: {use: 'os:system'}}, two: {}}",
+            "groups.one.demonstrator.use",
+        ),
+        ("demonstrators: {other: {use: 'os:system'}}", "demonstrators.other.use"),
+    ],
+)
+def test_no_field_names_a_part_that_nobody_provides(tmp_path: Path, field: str, where: str):
+    """Groups and further demonstrators are looked up as the cohort's parts are."""
+    path = _changed(tmp_path, "schema: 1\n", f"schema: 1\n{field}\n")
+    (fault,) = _refused(path)
+    line = Path(path).read_text().splitlines().index(field) + 1
+    assert fault.startswith(f"{path}:{line}: {where}: no ")
+    assert "is called 'os:system'" in fault

@@ -9,8 +9,10 @@ from typer.testing import CliRunner
 from analysis.benchmark.write import Recorded, write_benchmark
 from harness.benchmark.studies import plan, run_cells
 from harness.cli.app import app
+from harness.session.study_run import portable
 from protocols.benchmark import SETTINGS
 from protocols.files.errors import InputError
+from protocols.parts import models_beside
 
 RIGHT = SETTINGS[:1]
 
@@ -70,6 +72,28 @@ def test_options_out_of_range_are_refused(arguments, part):
     result = CliRunner().invoke(app, ["benchmark", "lad", *arguments])
     assert isinstance(result.exception, InputError)
     assert part in str(result.exception)
+
+
+OWN = """
+class Idle:
+    def start_lap(self): ...
+    def assist(self, x): ...
+"""
+
+
+def test_a_model_of_ones_own_runs_only_when_it_is_trusted(tmp_path, monkeypatch):
+    """A module in this folder is refused with its file; once trusted, workers may load it."""
+    (tmp_path / "mine.py").write_text(OWN)
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(app, ["benchmark", "mine:Idle"])
+    assert isinstance(result.exception, InputError)
+    assert f"MODEL: 'mine:Idle' would run the code in {tmp_path / 'mine.py'}" in str(
+        result.exception
+    )
+    own = models_beside(["lad", "mine:Idle"], tmp_path)
+    _, mine = plan(tmp_path, ["lad", "mine:Idle"], 5, 1, settings=RIGHT, code=own)
+    assert portable(mine.run).study.code == own
+    assert [part.use for part in own] == ["mine:Idle"]
 
 
 @pytest.mark.slow
