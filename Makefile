@@ -3,7 +3,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 ALL_CORES := --numprocesses logical --maxprocesses 8 --dist worksteal
 
-.PHONY: study live test test-long check docs gallery reference release-check bench clean
+.PHONY: study live test tests test-long check docs gallery reference release-check bench clean
 
 study: $(VENV)/installed  ## Run the four-lap study with twelve synthetic participants, and report it
 	$(BIN)/lad-study run four-lap --out studies/four-lap-seed0
@@ -11,13 +11,16 @@ study: $(VENV)/installed  ## Run the four-lap study with twelve synthetic partic
 live: $(VENV)/installed-live  ## Drive yourself in a browser, helped by the shipped demonstrator
 	$(BIN)/lad-study live drive-yourself --out studies/drive-yourself
 
-test: $(VENV)/installed-test  ## Run every test and check
+test: $(VENV)/installed-test  ## Run every test and check, side by side: tests of living people wait
+	$(MAKE) --no-print-directory --jobs 2 tests check
+
+tests: $(VENV)/installed-test
 	$(BIN)/python -m pytest -m "not slow" $(ALL_CORES) --hypothesis-seed 0
-	$(MAKE) check
 
 test-long: $(VENV)/installed-test  ## Run the tests that take minutes, and every test with the lowest versions
 	$(BIN)/python -m pytest -m slow $(ALL_CORES) --hypothesis-seed 0
 	.ci/lowest
+	$(MAKE) docs
 
 check: $(VENV)/installed-test
 	$(BIN)/ruff check .

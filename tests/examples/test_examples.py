@@ -19,10 +19,9 @@ from protocols.record.reader import open_study
 EXAMPLES = Path(__file__).parents[2] / "examples"
 R = shutil.which("Rscript")
 
-# These take about half a minute each: in the long form.
-LONG = {"example_1_paper", "example_2_own_assistant", "example_5_sizing", "example_6_bag_to_report"}
+QUICK = {"example_7_published_data"}  # the others take ten seconds to half a minute each
 GALLERY = [
-    pytest.param(path, id=path.stem, marks=[pytest.mark.slow] if path.stem in LONG else [])
+    pytest.param(path, id=path.stem, marks=[] if path.stem in QUICK else [pytest.mark.slow])
     for path in sorted(EXAMPLES.glob("example_*.py"))
 ]
 

@@ -98,6 +98,11 @@ def _steps(column: str, change: Callable[[pa.Table], Any]) -> Any:
     return deviate
 
 
+def _whole(values):
+    """Return whole numbers; numbers as they are where some are missing or too large for that."""
+    return np.rint(values).astype(np.int64) if (np.abs(values) < 9e18).all() else values
+
+
 def _times(change: Callable[[np.ndarray], Any]) -> Any:
     return _steps("t_s", lambda table: pa.array(change(table["t_s"].to_numpy())))
 
@@ -347,12 +352,12 @@ DEVIATIONS: dict[str, Deviation] = {
         _values("laps", "duration_s", lambda s: 1000 * s), "refused", "a thousand times"),
     "t in ms": Deviation(_times(lambda t: 1e3 * t), "same", "t_s is in milliseconds"),
     "t in whole ms": Deviation(
-        _times(lambda t: np.rint(1e3 * t).astype(np.int64)), "same", "t_s is in milliseconds"),
+        _times(lambda t: _whole(1e3 * t)), "same", "t_s is in milliseconds"),
     "t in ns": Deviation(_times(lambda t: 1e9 * t), "same", "t_s is in nanoseconds"),
     "t since 1970": Deviation(
         _times(lambda t: t + _EPOCH.timestamp()), "same", "t_s counts from the time of day"),
     "t since 1970 in whole ns": Deviation(
-        _times(lambda t: ((t + _EPOCH.timestamp()) * 1e9).astype(np.int64)), "same",
+        _times(lambda t: _whole((t + _EPOCH.timestamp()) * 1e9)), "same",
         "t_s is in nanoseconds"),
     "t as date and time in ns": Deviation(
         _steps("t_s", lambda table: _stamps(table, None).cast(pa.timestamp("ns"))), "same",
