@@ -1,7 +1,8 @@
 """One recording as a session: who drove which laps, and where they begin."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import accumulate
 from pathlib import Path
 
 from harness.importing.cutting import Cutting
@@ -13,8 +14,9 @@ from protocols.exclusion import exclusion_reason
 from protocols.files.errors import InputError
 from protocols.files.suggestion import allowed
 from protocols.laps import PlannedLap
+from protocols.order import in_words
 from protocols.record.rows import ParticipantRow
-from protocols.record.session import SessionRecord
+from protocols.record.session import RecordedLap, SessionRecord
 from protocols.resolved import ResolvedStudy
 from protocols.study import StudyProtocol
 
@@ -62,6 +64,7 @@ def read_session(
         cutting.lap(i, lap, person, begin, end)
         for i, (lap, begin, end) in enumerate(zip(planned, starts, ends, strict=False))
     ]
+    laps = _placed(laps)
     rows = [lap.row for lap in laps]
     reason = exclusion_reason(study.protocol.exclusion, rows)
     row = ParticipantRow(
@@ -78,6 +81,7 @@ def read_session(
         laps_driven=len(rows),
         excluded=reason is not None,
         exclusion_reason=reason,
+        order=in_words(planned),
     )
     model = saved(cutting.model) if any(lap.training for lap in rows) else None
     return ImportedSession(SessionRecord(row, tuple(laps), (), model), tuple(cutting.troubles))
@@ -127,3 +131,12 @@ def _starts(path: Path, mapping: BagMapping, stream: Stream) -> list[int]:
             f"{path}: no message of {stream.topic} has {pattern!r} in it; no lap begins"
         )
     return marks
+
+
+def _placed(laps: list[RecordedLap]) -> list[RecordedLap]:
+    """Return the laps with their place among the analysed ones, from 1."""
+    places = accumulate(int(not lap.row.practice) for lap in laps)
+    return [
+        lap if lap.row.practice else replace(lap, row=replace(lap.row, place=place))
+        for lap, place in zip(laps, places, strict=True)
+    ]
