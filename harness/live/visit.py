@@ -12,30 +12,21 @@ from typing import Any, Literal
 from harness.live.link_watch import LinkWatch
 from harness.live.mailbox import Mailbox
 from harness.live.punctuality import TOO_LATE_S, lateness_s
+from harness.live.repeating import repeating
+from harness.live.step_shown import step_shown
 from harness.session.borrowed import make_all_parts
 from harness.session.clock import Clock, LapStoppedError, StopReason, VirtualClock, WallClock
 from harness.session.journal import FileJournal
-from harness.session.lap import LapParts, Step
-from harness.session.parts import Seats, SessionParts
-from harness.session.replay import (
-    ReplayedClock,
-    ReplayedDemonstrator,
-    ReplayedDriver,
-    ReplayedReader,
-    ReplayedRespondent,
-    events_of,
-    is_next,
-)
+from harness.session.lap import Step
+from harness.session.parts import Seats
+from harness.session.replay import ReplayedClock, events_of, is_next
 from harness.session.session import Session
 from harness.session.stages import Stage
 from harness.session.study_run import StudyRun
 from harness.world.world import World
 from participants.driver import WithdrewError, kind_of
-from participants.live.demonstrator import LiveDemonstrator
-from participants.live.driver import command_of
-from participants.live.pages import LiveReader, LiveRespondent
 from participants.live.pictures import after_step
-from participants.live.seat import Input, Request
+from participants.live.seat import Request
 from protocols.record.journal import journal_header, read_journal
 from protocols.record.rows import LapRow, participant_id
 from protocols.record.session import SessionRecord
@@ -279,7 +270,7 @@ class Visit:
             "events": list(self._events)[-12:],
         }
         if step is not None and stage is not None and stage.kind == "lap":
-            shown |= _driven(step)
+            shown |= step_shown(step)
         return shown
 
     def trail(self) -> list[tuple[Any, ...]]:
@@ -357,7 +348,8 @@ class Visit:
         journal = FileJournal(self._path, header)
         self._open_journal(journal)
         self._replayed = sum("tick" in entry for entry in journal.left)
-        people, clock = self._with_journal(parts, journal)
+        people = repeating(parts, journal)
+        clock = ReplayedClock(journal, self._clock, self._come_back)
         session = Session(
             run, self._number, world, people,
             clock=clock, journal=journal, watch=self, repeats=self._repeats,
@@ -456,24 +448,6 @@ class Visit:
         restarts = self._run.study.protocol.live.on_interruption == "restart"
         return ordered or (restarts and row.end_reason == "disconnected")
 
-    def _with_journal(
-        self, parts: SessionParts, journal: FileJournal
-    ) -> tuple[SessionParts, Clock]:
-        """Return parts and a clock that first repeat what an earlier process has noted."""
-        driver, demonstrator = parts.lap.driver, parts.lap.demonstrator
-        if kind_of(driver) == "live":
-            driver = ReplayedDriver(journal, "live", driver)
-        if isinstance(demonstrator, LiveDemonstrator):
-            demonstrator = ReplayedDemonstrator(journal, demonstrator)
-        respondent, reader = parts.respondent, parts.reader
-        if isinstance(respondent, LiveRespondent):
-            respondent = ReplayedRespondent(journal, respondent)
-        if isinstance(reader, LiveReader):
-            reader = ReplayedReader(journal, reader)
-        lap = LapParts(driver, demonstrator, parts.lap.model)
-        people = replace(parts, lap=lap, respondent=respondent, reader=reader)
-        return people, ReplayedClock(journal, self._clock, self._come_back)
-
     def _come_back(self) -> None:
         """Wait until the participant is back in a lap that a stopped program interrupted."""
         protocol = self._run.study.protocol
@@ -501,28 +475,3 @@ class _DemonstratorsSeat:
         if not self._visit.needs_demonstrator:
             return {}
         return self._mailbox.ask(request)
-
-
-def _driven(step: Step) -> dict[str, Any]:
-    model = step.model
-    return {
-        "t": step.result.t,
-        "pose": list(step.result.pose),
-        "velocity": list(step.result.velocity),
-        "intent": list(step.intent),
-        "demonstrator_stick": _demonstrator_stick(step),
-        "control": step.control,
-        "p_help": model.p_help,
-        "variance": model.variance,
-        "input_age_s": step.input_age_s,
-        "clearance_m": step.result.clearance_m,
-    }
-
-
-def _demonstrator_stick(step: Step) -> list[float] | None:
-    """Return where a demonstrator's stick stands, clutch or not: in m/s and rad/s."""
-    forward, left = step.telemetry.get("demonstrator_v"), step.telemetry.get("demonstrator_w")
-    if forward is not None and left is not None:
-        return list(command_of(Input(forward, left)))
-    command = step.demonstrator.command if step.demonstrator else None
-    return None if command is None else list(command)
