@@ -169,7 +169,7 @@ class Visit:
     # What the experimenter, the participant and the network do --------------------------
 
     def pause(self, actor: str, note: str | None = None) -> None:
-        """Hold the lap before its next step."""
+        """Hold the lap before its next step; between two laps, the next one before its first."""
         self._paused_by.add(actor)
         self.event(actor, "pause", note)
         if isinstance(self._clock, WallClock):
@@ -183,10 +183,13 @@ class Visit:
             self._clock.resume()
 
     def stop(self, actor: str, reason: StopReason, note: str | None = None) -> None:
-        """End the lap before its next step."""
+        """End the lap before its next step; a pause of it by the same actor ends with it."""
         self.event(actor, f"stop ({reason})", note)
+        self._paused_by.discard(actor)
         if isinstance(self._clock, WallClock):
             self._clock.stop(reason, note)
+            if not self._paused_by:
+                self._clock.resume()
 
     def repeat(self, actor: str, note: str | None = None) -> None:
         """End the lap, and have it driven once more."""
@@ -198,8 +201,9 @@ class Visit:
         if self.participant.page_kind in {"instructions", "ready"}:
             self.event(actor, "start", note)
             self.participant.skip()
-        else:
-            self.resume(actor, note)
+            if actor not in self._paused_by:
+                return
+        self.resume(actor, note)
 
     def skip(self, actor: str, note: str | None = None) -> None:
         """Go on to the next stage: a lap is stopped, a page stays unanswered."""

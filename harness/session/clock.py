@@ -80,7 +80,7 @@ class WallClock:
 
     Deadlines are absolute: a small delay does not add up. After a long one, zero moves by the
     delay, so that steps after a late one do not follow each other faster. Lap time excludes
-    pauses.
+    pauses. A pause made between two laps holds the next one before its first step.
     """
 
     def __init__(self) -> None:
@@ -91,10 +91,23 @@ class WallClock:
         self._stop: LapStoppedError | None = None
 
     def start(self, t: float = 0.0) -> Timing:
-        """Set zero so that the lap has reached ``t`` now; an earlier stop or pause is over."""
+        """Set zero so that the lap has reached ``t`` now; an earlier stop is over.
+
+        A pause is not: it is waited for, and is no part of the lap.
+
+        Raises
+        ------
+        LapStoppedError
+            When ``stop`` is called meanwhile.
+        """
         with self._changed:
+            self._stop = None
+            while self._paused_at is not None and self._stop is None:
+                self._changed.wait()
+            if self._stop is not None:
+                raise self._stop
             self._zero = time.monotonic() - t
-            self._paused_at, self._paused_s, self._stop = None, 0.0, None
+            self._paused_s = 0.0
         return Timing(0.0, 0.0, 0.0)
 
     def wait_until(self, t: float) -> Timing:

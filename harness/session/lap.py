@@ -192,9 +192,9 @@ class Lap:
 
     def drive(self, recorder: Recorder, clock: Clock) -> Ending:
         """Drive until the last gate, the time limit, a withdrawal or the clock's stop."""
-        timing = clock.start()
-        while self._seen.t < self._rules.time_limit_s:
-            try:
+        try:
+            timing = clock.start()
+            while self._seen.t < self._rules.time_limit_s:
                 step = self._step(timing)
                 recorder.record(step)
                 self._teach(step)
@@ -202,10 +202,10 @@ class Lap:
                 if crossed is not None and self._gates.finished:
                     return self._ending("finished", step.seen.t + crossed * self._world.period)
                 timing = clock.wait_until(step.result.t)
-            except WithdrewError as withdrawal:
-                return self._broken_off("withdrew", str(withdrawal))
-            except LapStoppedError as stop:
-                return self._broken_off(stop.reason, stop.note)
+        except WithdrewError as withdrawal:
+            return self._broken_off("withdrew", str(withdrawal))
+        except LapStoppedError as stop:
+            return self._broken_off(stop.reason, stop.note)
         return self._ending("time_limit", self._seen.t)
 
     def _teach(self, step: Step) -> None:

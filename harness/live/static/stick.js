@@ -1,7 +1,7 @@
 // Keyboard, gamepad and touch as one stick. Keys ramp; gamepad and touch have a dead zone.
 export const KEYS = { ArrowUp: [1, 0], KeyW: [1, 0], ArrowDown: [-1, 0], KeyS: [-1, 0],
   ArrowLeft: [0, 1], KeyA: [0, 1], ArrowRight: [0, -1], KeyD: [0, -1] };
-const RAMP_S = 0.25, DEAD = 0.12, EVERY_MS = 40;
+const RAMP_S = 0.25, DEAD = 0.12, EVERY_MS = 20;
 
 // What lies within the dead zone is nothing; the rest goes from 0 to full.
 const zone = (v) => (Math.abs(v) < DEAD ? 0 : Math.sign(v) * (Math.abs(v) - DEAD) / (1 - DEAD));

@@ -197,6 +197,28 @@ def test_a_lost_person_stands_and_the_lap_waits(serve, how):
     assert pq.read_table(served.study.folder / "laps.parquet")["pauses"].to_pylist() == [1]
 
 
+def test_a_pause_on_a_page_holds_the_lap_that_follows(serve):
+    """Paused before the lap, the chair does not take a step until the experimenter resumes."""
+    served = serve(protocol(1.0))
+    browser = Browser(served)
+    browser.may_answer.clear()
+    browser.take(1.0)
+    visit = served.study.visits["P0001"]
+    visit.pause("experimenter")
+    browser.may_answer.set()
+    for _ in range(10):  # through every page, and longer than the lap would take
+        browser.take(0.2)
+    assert visit.snapshot()["stage"] == "lap"
+    assert "t" not in visit.snapshot()
+    visit.resume("experimenter")
+    while not browser.drive(np.inf):
+        pass
+    steps, events = steps_and_events(served)
+    assert len(steps) == 10
+    assert steps["late_s"].max() < 1
+    assert {"pause", "resume"} <= set(events["event"])
+
+
 def test_a_page_that_is_left_is_an_event(serve):
     """Hidden or blurred, another device, back again: each is recorded with its step."""
     served = serve(protocol(3.0))

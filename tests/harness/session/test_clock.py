@@ -88,6 +88,7 @@ def test_a_stop_ends_the_lap_at_once(paused):
         clock.wait_until(60.0)
     assert time.monotonic() - begun < 5
     assert (stop.value.reason, stop.value.note) == ("disconnected", "the tab was closed")
+    clock.resume()
     clock.start()
     assert clock.wait_until(0.0).late_s < 1.0
 
@@ -100,3 +101,24 @@ def test_pause_and_resume_from_another_thread():
     threading.Timer(0.1, clock.resume).start()
     timing = clock.wait_until(0.01)
     assert 0.05 < timing.paused_s < 5
+
+
+def test_a_pause_between_laps_holds_the_next_one():
+    """The experimenter pauses on a page: the lap that follows waits, and its time begins then."""
+    clock = WallClock()
+    clock.pause()
+    threading.Timer(0.1, clock.resume).start()
+    begun = time.monotonic()
+    assert clock.start().paused_s == 0.0
+    assert time.monotonic() - begun > 0.05
+    assert clock.wait_until(0.0).late_s < 1.0
+
+
+def test_a_held_lap_can_be_stopped():
+    """A lap that a pause holds before its first step ends at once, with its reason."""
+    clock = WallClock()
+    clock.pause()
+    threading.Timer(0.05, clock.stop, args=("stopped", "not today")).start()
+    with pytest.raises(LapStoppedError) as stop:
+        clock.start()
+    assert (stop.value.reason, stop.value.note) == ("stopped", "not today")
