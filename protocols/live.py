@@ -93,6 +93,10 @@ class LiveSettings(FileModel):
         What happens to the data of a participant who stops: kept, or purged.
     completion
         What a participant from a recruitment platform gets at the end.
+    allocation
+        Whether the console shows what the next participant will get, or keeps it back until they
+        have begun, so that nobody can choose who comes next by it. Where every slot is alike there
+        is nothing to keep back.
     id_parameters
         Names of the link's parameters that identify a person to a recruitment platform; they are
         stored apart from the study.
@@ -110,6 +114,7 @@ class LiveSettings(FileModel):
     questions: QuestionPages = QuestionPages()
     withdrawal: Literal["keep", "purge"] = "keep"
     completion: Completion | None = None
+    allocation: Literal["concealed", "shown"] = "concealed"
     id_parameters: Annotated[
         tuple[Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_]{0,39}$")], ...],
         Field(max_length=8),

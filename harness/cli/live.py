@@ -34,6 +34,9 @@ def live(
     links: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Write the links as JSON.")
     ] = None,
+    new_links: Annotated[
+        bool, typer.Option("--new-links", help="The links printed before open nothing any more.")
+    ] = False,
     registration: Annotated[
         Path | None,
         typer.Option(metavar="DIR", help="Follow this registration; another plan is refused."),
@@ -72,8 +75,9 @@ def live(
     folder = out or Path("studies") / f"{study.protocol.name}-live"
     address = Address(port=port, lan=lan, public_origin=public_origin)
     finished = serve_study(
-        StudyRun(study, seed), folder, address, say, seats=seats, links=links, plan=plan
-    )
+        StudyRun(study, seed), folder, address, say,
+        seats=seats, links=links, plan=plan, new_links=new_links,
+    )  # fmt: skip
     if finished and not no_report:
         from analysis.report import write_report
 

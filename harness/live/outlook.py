@@ -25,8 +25,8 @@ def outlook(study: LiveStudy) -> dict[str, Any]:
     -------
     dict
         ``quota``: one entry for each group and order with how many are planned, finished and under
-        way. ``next``: participant, group, laps in their order, and whether a seat is free for them;
-        None when no one more is wanted.
+        way. ``next``: participant, whether a seat is free for them, and, unless the allocation is
+        concealed, its reason, group and laps in their order; None when no one more is wanted.
     """
     progress = study.progress()
     planned = _counted(study, range(1, study.planned + 1))
@@ -43,7 +43,9 @@ def outlook(study: LiveStudy) -> dict[str, Any]:
             planned.items(), key=lambda item: (item[0].group or "", item[0].order)
         )
     ]
-    return {"quota": quota, "next": _next(study, free=len(progress.active) < study.seats)}
+    concealed = len(quota) > 1 and study.run.study.protocol.live.allocation == "concealed"
+    free = len(progress.active) < study.seats
+    return {"quota": quota, "next": _next(study, free=free, concealed=concealed)}
 
 
 def _counted(study: LiveStudy, slots: Iterable[int]) -> Counter[Cell]:
@@ -55,15 +57,16 @@ def _cell(study: LiveStudy, slot: int) -> Cell:
     return Cell(group_of(protocol, slot, seed), in_words(laps_of(protocol, slot, seed)))
 
 
-def _next(study: LiveStudy, *, free: bool) -> dict[str, Any] | None:
+def _next(study: LiveStudy, *, free: bool, concealed: bool) -> dict[str, Any] | None:
     given = study.next_allocation()
     if given is None:
         return None
+    one = {"participant": study.next_participant(), "free": free}
+    if concealed:
+        return one
     protocol, seed = study.run.study.protocol, study.run.seed
-    return {
-        "participant": study.next_participant(),
+    return one | {
         "reason": given.reason,
         "group": group_of(protocol, given.slot, seed),
         "laps": [lap.condition for lap in laps_of(protocol, given.slot, seed)],
-        "free": free,
     }

@@ -54,6 +54,7 @@ def serve_study(
     seats: int = 1,
     links: Path | None = None,
     plan: Registration | None = None,
+    new_links: bool = False,
 ) -> int:
     """Serve a study, and return how many of its sessions are finished.
 
@@ -69,6 +70,8 @@ def serve_study(
         A file that gets the links as JSON.
     plan
         The registration that the study follows; it is copied into the folder.
+    new_links
+        Whether the links that were printed before open nothing any more.
 
     Raises
     ------
@@ -88,6 +91,8 @@ def serve_study(
         study = LiveStudy(run, folder, seats)
         if plan is not None:
             copy_registration(plan, folder)
+        if new_links:
+            study.new_links()
         named = _links(study, origins[0])
         if links is not None:
             write_whole(links, (json.dumps(named, indent=1) + "\n").encode())
@@ -133,10 +138,7 @@ async def _serve(server: uvicorn.Server, listener: socket.socket, study: LiveStu
 
 def _links(study: LiveStudy, origin: str) -> dict[Role, str]:
     roles: tuple[Role, ...] = ("participant", "demonstrator", "experimenter")
-    return {
-        role: f"{origin}/{LETTERS[role]}/{study.tokens.issue(role, nonce=f'link-{role}')}"
-        for role in roles
-    }
+    return {role: f"{origin}/{LETTERS[role]}/{study.tokens.link(role)}" for role in roles}
 
 
 def _qr(link: str) -> str:

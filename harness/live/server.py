@@ -20,7 +20,7 @@ from harness.live.console import carry_out, shown
 from harness.live.guard import REFUSED, Guard
 from harness.live.limits import TokenBucket
 from harness.live.mailbox import Mailbox
-from harness.live.study import LiveStudy
+from harness.live.study import LiveStudy, seat_nonce
 from harness.live.tokens import ROLES, Grant
 from harness.live.visit import Visit
 from protocols.course.drawing import SCRIPTS, course_picture, script
@@ -134,7 +134,7 @@ class _Server:
             await socket.send_text(json.dumps({"type": "full"}))
             await _close(socket, 1000)
             return
-        person = self._study.tokens.issue("participant", visit.name, nonce=f"seat-{visit.name}")
+        person = self._study.tokens.issue("participant", visit.name, nonce=seat_nonce(visit.name))
         protocol = self._study.run.study.protocol
         visit.event(
             "program", "browser", f"{hello.agent}; {hello.width} x {hello.height}; {hello.view}"

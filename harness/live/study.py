@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 
-from harness.live.tokens import Tokens
+from harness.live.tokens import ROLES, Tokens
 from harness.live.visit import Visit, visitors_of
 from harness.running.sessions import world_of
 from harness.session.study_run import StudyRun, portable
@@ -46,6 +46,8 @@ from protocols.record.store import (
 
 IDENTITIES = "identities.sqlite"
 """In the private folder beside a study: platforms' ids; it is there only where there are any."""
+REVOKED = "revoked.json"
+"""There, too: the names of links that open nothing any more."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +111,7 @@ class LiveStudy:
         self.run = replace(run, digest=header.digest)
         (folder / JOURNALS).mkdir(exist_ok=True)
         self.private = private_folder(folder)
-        self.tokens = Tokens(_secret(self.private))
+        self.tokens = Tokens(_secret(self.private), _revoked(self.private))
         self._lockstep, self._on_change = lockstep, on_change
         self._lock = threading.RLock()
         self.visits: dict[str, Visit] = {}
@@ -200,6 +202,18 @@ class LiveStudy:
                 rows = [(participant, name, value) for name, value in kept.items()]
                 database.executemany("insert into ids values (?, ?, ?)", rows)
 
+    def revoke(self, *nonces: str) -> None:
+        """Have tokens allow nothing any more, after a restart too."""
+        for nonce in nonces:
+            self.tokens.revoke(nonce)
+        content = json.dumps(self.tokens.revoked).encode()
+        write_whole(self.private / REVOKED, content)
+
+    def new_links(self) -> None:
+        """Have the links that were printed so far open nothing any more."""
+        standing = [self.tokens.read(self.tokens.link(role)) for role in ROLES.values()]
+        self.revoke(*(grant.nonce for grant in standing if grant is not None))
+
     def purge(self, participant: str) -> None:
         """Delete every byte of a participant's data; a file with the number and date stays.
 
@@ -211,6 +225,7 @@ class LiveStudy:
             write_whole(self.folder / WITHDRAWN / f"{participant}.json", json.dumps(text).encode())
             # Files last: what is left of them makes a program that was stopped here purge again.
             self._forget(participant)
+            self.revoke(seat_nonce(participant))
             shutil.rmtree(self.folder / REPORT, ignore_errors=True)
             for path in self._of(participant):
                 shutil.rmtree(path) if path.is_dir() else path.unlink()
@@ -278,6 +293,11 @@ class LiveStudy:
         self._on_change()
 
 
+def seat_nonce(participant: str) -> str:
+    """Return the name of the token by which a participant's browser finds its seat again."""
+    return f"seat-{participant}"
+
+
 def private_folder(folder: Path) -> Path:
     """Return the folder beside a study directory that is not part of it; only the owner reads it.
 
@@ -302,6 +322,12 @@ def _secret(private: Path) -> bytes:
         with os.fdopen(descriptor, "wb") as stream:
             stream.write(secrets.token_bytes(32))
     return path.read_bytes()
+
+
+def _revoked(private: Path) -> tuple[str, ...]:
+    """Return the names of the tokens that an earlier process revoked."""
+    path = private / REVOKED
+    return tuple(json.loads(path.read_bytes())) if path.exists() else ()
 
 
 def _one_world_at_a_time(run: StudyRun) -> Callable[[], World]:

@@ -3,7 +3,9 @@
 import base64
 import hashlib
 import hmac
+import itertools
 import secrets
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -38,6 +40,8 @@ class Tokens:
     ----------
     secret
         At least 16 bytes; anyone who has it can issue tokens.
+    revoked
+        Names of the tokens that allow nothing any more.
 
     Examples
     --------
@@ -46,18 +50,27 @@ class Tokens:
     'P0001'
     >>> tokens.read("d.P0001.AAAA.forged") is None
     True
+    >>> before = tokens.link("demonstrator")
+    >>> tokens.revoke(tokens.read(before).nonce)
+    >>> tokens.read(before) is None, tokens.read(tokens.link("demonstrator")).nonce
+    (True, 'link-demonstrator-2')
     """
 
-    def __init__(self, secret: bytes) -> None:
+    def __init__(self, secret: bytes, revoked: Iterable[str] = ()) -> None:
         if len(secret) < 16:
             raise ValueError("a secret needs at least 16 bytes")
         self._secret = secret
-        self._revoked: set[str] = set()
+        self._revoked = set(revoked)
 
     def issue(self, role: Role, person: str | None = None, nonce: str | None = None) -> str:
         """Return a token; the same nonce gives the same token."""
         text = f"{LETTERS[role]}.{person or ''}.{nonce or secrets.token_urlsafe(9)}"
         return f"{text}.{self._signature(text)}"
+
+    def link(self, role: Role) -> str:
+        """Return the token of a role's printed link: the first that was not revoked."""
+        names = (f"link-{role}" + (f"-{n}" if n > 1 else "") for n in itertools.count(1))
+        return self.issue(role, nonce=next(name for name in names if name not in self._revoked))
 
     def read(self, token: str) -> Grant | None:
         """Return what a token allows; None for one that is forged, damaged or revoked."""
@@ -69,9 +82,14 @@ class Tokens:
             return None
         return Grant(ROLES[letter], person or None, nonce)
 
-    def revoke(self, grant: Grant) -> None:
+    def revoke(self, nonce: str) -> None:
         """Have a token, and every copy of it, allow nothing any more."""
-        self._revoked.add(grant.nonce)
+        self._revoked.add(nonce)
+
+    @property
+    def revoked(self) -> tuple[str, ...]:
+        """Names of the tokens that allow nothing any more, sorted."""
+        return tuple(sorted(self._revoked))
 
     def _signature(self, text: str) -> str:
         digest = hmac.new(self._secret, text.encode("utf-8", "replace"), hashlib.sha256).digest()

@@ -13,7 +13,10 @@ from protocols.resolved import ResolvedStudy
 
 _ABSENT = object()
 
-_LATER_LIVE = {"questions": QuestionPages().model_dump(mode="json")}
+_LATER_LIVE = {
+    "questions": QuestionPages().model_dump(mode="json"),
+    "allocation": "concealed",
+}
 
 
 _LATER: Mapping[str, Mapping[str, Any]] = {

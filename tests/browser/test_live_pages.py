@@ -119,6 +119,31 @@ def test_one_item_a_page_with_every_answer_required(opened):
     assert (entered["driving.Q1"], entered["driving.Q2"]) == (4, 1)
 
 
+def test_answers_outlive_a_reload(opened):
+    """What was entered on the page is there again; other questions, and other pages, are not."""
+    stage = opened("participant", questions={"page": "item"})
+    show = lambda request: stage.send(  # noqa: E731
+        "page", request=request, kind="questions", questions=QUESTIONS[:2]
+    )
+    show(7)
+    stage.wait("answer-Q1-4").check()
+    stage.tab.get_by_test_id("questions-submit").click()
+    stage.wait("answer-Q2-1").check()
+    stage.tab.reload()
+    stage.until(lambda: len(stage.said("hello")) == 2)
+    show(7)
+    assert stage.wait("answer-Q2-1").is_checked()
+    stage.tab.get_by_test_id("questions-submit").click()
+    stage.until(stage.answers)
+    entered = stage.answers()[0]
+    assert (entered["driving.Q1"], entered["driving.Q2"]) == (4, 1)
+    assert entered["driving.Q2#s"] > 0
+    for request in (8, 9):
+        show(request)
+        assert not stage.wait("answer-Q1-4").is_checked()
+        stage.tab.get_by_test_id("answer-Q1-4").check()
+
+
 def test_pages_before_the_first_lap(opened):
     """Machine check, consent, form, instructions with a try of the keys: by keyboard alone."""
     stage = opened("participant", machine_check={"min_frame_rate": 240, "rule": "flag"})

@@ -46,8 +46,13 @@ function update(message) {
 
 function outlook({ next, quota }) {
   document.getElementById("next").textContent = next
-    ? `${next.participant}${next.group ? `, group ${next.group}` : ""}: ${next.laps.join(" > ")}${next.free ? "" : " (no free seat now)"}`
+    ? `${next.participant}${given(next)}${next.free ? "" : " (no free seat now)"}`
     : "none: everyone who is planned has begun";
   document.getElementById("orders").replaceChildren(...quota.map((one) => el("tr", {},
     [one.group || "–", one.order, one.planned, one.finished, one.under_way].map((value) => el("td", {}, String(value))))));
+}
+
+function given({ group, laps }) {
+  if (!laps) return ": order and group are decided when they begin";
+  return `${group ? `, group ${group}` : ""}: ${laps.join(" > ")}`;
 }

@@ -46,5 +46,6 @@ export function link(role, handlers) {
 
   open();
   // The round trip is the server's median, in ms; null before it knows one.
-  return { send, roundTrip: () => state.roundTrip, close: () => { state.closed = true; } };
+  // The seat is what this tab's person is known by after a reload; null before there is one.
+  return { send, seat: () => sessionStorage.getItem(key), roundTrip: () => state.roundTrip, close: () => { state.closed = true; } };
 }

@@ -6,7 +6,7 @@ import { hasWebGL } from "./view.js";
 import { instructionsPage } from "./controls.js";
 import { link } from "./link.js";
 import { makeMotion, makeStick } from "./stick.js";
-import { askQuestions } from "./questions.js";
+import { askQuestions, forgetDraft } from "./questions.js";
 
 let welcome = null, stage = null, request = null, motion = null;
 const net = link("participant", {
@@ -20,7 +20,7 @@ const net = link("participant", {
   driving: enterStage,
   picture: (picture) => { enterStage(); motion.put(picture); },
   full: () => closed("The study has no free place at the moment. Please ask the experimenter."),
-  bye: (message) => { leaveStage(); goodbye(message); net.close(); },
+  bye: (message) => { leaveStage(); forgetDraft(); goodbye(message); net.close(); },
   lost: () => waiting("The connection was lost. The chair stands; trying to connect again."),
   gone: closed,
 });
@@ -93,7 +93,7 @@ const pages = {
   ready: (message) => page(el("h1", {}, message.resumed ? "Welcome back" : "Ready?"),
     el("p", {}, message.resumed ? "The lap goes on where it was." : "The lap begins after a short countdown."),
     row(el("button", { test: "lap-start", onclick: () => countdown(() => answer({})) }, message.resumed ? "Go on" : "Start the lap"))),
-  questions: (message) => askQuestions(message.questions, welcome.live.questions, stopRow, answer),
+  questions: (message) => askQuestions(message.questions, welcome.live.questions, stopRow, answer, `${net.seat()} ${message.request}`),
   break: (message) => {
     const on = el("button", { disabled: true, test: "break-continue", onclick: () => answer({}) }, "Continue");
     page(el("h1", {}, "A short break"), el("p", {}, `Please rest for at least ${Math.round(message.seconds)} seconds.`), row(on));

@@ -5,16 +5,33 @@ const MOST_MARKS = 21;
 const nameOf = (q) => `${q.instrument}.${q.item}`;
 
 // Asks page after page, then calls `done` with every answer; what is left out is null.
-export function askQuestions(questions, { page, required }, footer, done) {
+// What is entered outlives a reload of the page: `name` says whose questions these are, and which.
+export function askQuestions(questions, { page, required }, footer, done, name) {
   const pages = page === "item" ? questions.map((q) => [q]) : byInstrument(questions);
-  const entered = {};
-  const ask = (i) => {
-    if (i === pages.length) { done(entered); return; }
-    askPage(pages[i], { required, footer, title: pages.length > 1 ? `Questions, page ${i + 1} of ${pages.length}` : "Questions" },
-      (answers) => { Object.assign(entered, answers); ask(i + 1); });
+  const draft = draftOf(name);
+  const ask = () => {
+    if (draft.page >= pages.length) { forgetDraft(); done(draft.entered); return; }
+    const title = pages.length > 1 ? `Questions, page ${draft.page + 1} of ${pages.length}` : "Questions";
+    askPage(pages[draft.page], { required, footer, title, draft }, (answers) => {
+      Object.assign(draft.entered, answers);
+      Object.assign(draft, { page: draft.page + 1, fields: {}, seconds: {}, shown: 0 });
+      keep(draft);
+      ask();
+    });
   };
-  ask(0);
+  ask();
 }
+
+// One draft at a time, in this tab only: that of other questions, or another person's, is dropped.
+const DRAFT = "draft";
+function draftOf(name) {
+  const kept = JSON.parse(sessionStorage.getItem(DRAFT) || "null");
+  if (kept && kept.name === name) return kept;
+  forgetDraft();
+  return { name, page: 0, entered: {}, fields: {}, seconds: {}, shown: 0 };
+}
+function keep(draft) { sessionStorage.setItem(DRAFT, JSON.stringify(draft)); }
+export function forgetDraft() { sessionStorage.removeItem(DRAFT); }
 
 function byInstrument(questions) {
   const found = new Map();
@@ -22,14 +39,19 @@ function byInstrument(questions) {
   return [...found.values()];
 }
 
-function askPage(questions, { required, footer, title }, then) {
-  const seconds = {};
+function askPage(questions, { required, footer, title, draft }, then) {
+  const { seconds } = draft;
   let shown = performance.now();
   const problem = el("p", { class: "problem", role: "alert", hidden: true, test: "questions-problem" });
   const fields = questions.map((q) => ({ q, field: fieldOf(q, required) }));
   const form = el("form", {
     novalidate: true,
-    oninput: (event) => { seconds[event.target.name] = Math.round(performance.now() - shown) / 1000; },
+    oninput: (event) => {
+      draft.shown = Math.round(performance.now() - shown);
+      seconds[event.target.name] = draft.shown / 1000;
+      draft.fields[event.target.name] = event.target.value;
+      keep(draft);
+    },
     onsubmit: (event) => {
       event.preventDefault();
       const faulty = fields.filter(({ q, field }) => mark(field, faultOf(q, valueOf(form, q), required)));
@@ -50,7 +72,15 @@ function askPage(questions, { required, footer, title }, then) {
   }, fields.map(({ field }) => field), problem, row(el("button", { test: "questions-submit" }, "Continue")));
   const hint = required ? "Please answer every question." : "You can leave out what you do not want to answer.";
   show(sheet(el("h1", {}, title), el("p", { class: "soft" }, hint), form, footer()));
-  requestAnimationFrame(() => { shown = performance.now(); });
+  for (const [field, value] of Object.entries(draft.fields)) putBack(form.elements[field], value);
+  requestAnimationFrame(() => { shown = performance.now() - draft.shown; });
+}
+
+function putBack(field, value) {
+  field.value = value;  // of radio buttons, this checks the one of that value
+  for (const input of field instanceof RadioNodeList ? field : []) {
+    input.closest("label").classList.toggle("chosen", input.checked);
+  }
 }
 
 function valueOf(form, q) {

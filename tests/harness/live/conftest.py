@@ -26,7 +26,7 @@ class Served:
         self.origin = f"http://127.0.0.1:{port}"
 
     def link(self, role):
-        return self.study.tokens.issue(role, nonce=f"link-{role}")
+        return self.study.tokens.link(role)
 
     def open(self, role, origin=None, token=None, **hello):
         opening = connect(

@@ -239,6 +239,19 @@ def test_the_console_begins_a_lap_and_tells_who_is_next(serve):
     assert ("start", "ready now") in {(e["event"], e["note"]) for e in events}
 
 
+@pytest.mark.parametrize("allocation", ["concealed", "shown"])
+def test_what_the_next_participant_gets_is_concealed_unless_the_protocol_shows_it(
+    serve, allocation
+):
+    """Where orders differ, who enrols people must not know the next one."""
+    plain = {"conditions": {"secret-name": {}, "other-name": {}}, "orders": {"use": "all"}}
+    data = with_live(allocation=allocation) | plain
+    news = shown(serve(data).study, whole=True)["outlook"]
+    assert len(news["quota"]) == 2
+    assert ("laps" in news["next"]) == (allocation == "shown")
+    assert ("secret-name" in str(news["next"])) == (allocation == "shown")
+
+
 NAMED = (
     "consent-agree", "consent-refuse", "check-continue", "demographics-submit",
     "instructions-continue", "lap-start", "questions-submit", "withdraw", "debrief-done", "lobby",

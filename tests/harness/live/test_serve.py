@@ -6,6 +6,7 @@ import pytest
 
 from harness.live import serve
 from harness.live.serve import Address, serve_study
+from harness.live.study import LiveStudy
 from harness.session.study_run import StudyRun
 from protocols.files.errors import InputError
 from protocols.load import resolve_study
@@ -42,6 +43,22 @@ def test_only_this_machine_by_default(asked, run, tmp_path):
     links = json.loads((tmp_path / "links.json").read_text())
     assert [line.split()[0] for line in said] == list(links)
     assert list(links) == ["participant", "demonstrator", "experimenter"]
+
+
+def test_new_links_replace_the_old_ones(asked, run, tmp_path):
+    """The same command prints the same links; with --new-links others, and the old ones go."""
+    printed = []
+    for new_links in (False, False, True, False):
+        said = []
+        serve_study(run, tmp_path / "s", Address(port=0), said.append, new_links=new_links)
+        printed.append([line.rpartition("/")[2] for line in said])
+    assert printed[0] == printed[1]
+    assert printed[2] == printed[3]
+    tokens = LiveStudy(run, tmp_path / "s").tokens
+    assert [tokens.read(token) for token in printed[0]] == [None] * 3
+    assert [tokens.read(token).role for token in printed[2]] == [
+        "participant", "demonstrator", "experimenter",
+    ]  # fmt: skip
 
 
 def test_the_local_network_gets_links_with_qr_codes(asked, run, tmp_path, monkeypatch):
