@@ -122,9 +122,10 @@ def test_one_item_a_page_with_every_answer_required(opened):
 def test_answers_outlive_a_reload(opened):
     """What was entered on the page is there again; other questions, and other pages, are not."""
     stage = opened("participant", questions={"page": "item"})
-    show = lambda request: stage.send(  # noqa: E731
-        "page", request=request, kind="questions", questions=QUESTIONS[:2]
-    )
+
+    def show(request):
+        stage.send("page", request=request, kind="questions", questions=QUESTIONS[:2])
+
     show(7)
     stage.wait("answer-Q1-4").check()
     stage.tab.get_by_test_id("questions-submit").click()
