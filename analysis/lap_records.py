@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from analysis.frames import StudyFrames, as_frame, within
 from analysis.measures.registry import MEASURES
 from analysis.measures.streams import Steps, at_hand, gaps, helped, stream
-from analysis.processes import in_order
+from analysis.processes import HERE, Processes
 from protocols.files.errors import InputError
 from protocols.record.elsewhere.placement import Placement, said_of
 from protocols.record.reader import Study
@@ -72,7 +72,9 @@ class LapRecords:
 
 
 def read_laps(
-    frames: StudyFrames, progress: Callable[[str], None] | None = None, jobs: int = 1
+    frames: StudyFrames,
+    progress: Callable[[str], None] | None = None,
+    others: Processes = HERE,
 ) -> LapRecords:
     """Read the steps of every analysed lap once.
 
@@ -85,13 +87,13 @@ def read_laps(
         The study's tables.
     progress
         Told in a few words what is being done.
-    jobs
-        Number of processes, used from ``MANY`` laps on; see ``analysis.processes.in_order``.
+    others
+        Processes that help from ``MANY`` laps on.
     """
     found: Counter[str] = Counter()
     unrecorded = list(_FIRST_COLUMNS)
     laps: list[_Lap] = []
-    for piece in _pieces(frames, progress or (lambda _: None), jobs):
+    for piece in _pieces(frames, progress or (lambda _: None), others):
         laps += piece.laps
         unrecorded = [name for name in unrecorded if name in piece.unrecorded]
     for lap in laps:
@@ -147,7 +149,9 @@ _Where = tuple[str, int, str, bool]
 """Participant, lap, condition, and whether it was completed."""
 
 
-def _pieces(frames: StudyFrames, tell: Callable[[str], None], jobs: int) -> Iterator[_Piece]:
+def _pieces(
+    frames: StudyFrames, tell: Callable[[str], None], others: Processes
+) -> Iterator[_Piece]:
     """Yield the analysed laps in their order; many laps are read by several processes."""
     laps = frames.laps
     places: list[_Where] = list(
@@ -160,10 +164,10 @@ def _pieces(frames: StudyFrames, tell: Callable[[str], None], jobs: int) -> Iter
         )
     )
     pieces = [places[i : i + PIECE] for i in range(0, len(places), PIECE)]
-    jobs = min(jobs, len(pieces)) if len(places) >= MANY else 1
+    others = others if len(places) >= MANY else HERE
     done = 0
     tell(f"Measuring laps: 0 of {len(places)}")
-    for piece in in_order(partial(_read, frames.study), pieces, jobs):
+    for piece in others.in_order(partial(_read, frames.study), pieces):
         done += len(piece.laps)
         tell(f"Measuring laps: {done} of {len(places)}")
         yield piece

@@ -11,6 +11,7 @@ from analysis.comparisons import (
     item_comparisons,
     lap_time_comparisons,
 )
+from analysis.explain.policies import Policies, policies
 from analysis.flow import Flow, participants_flow
 from analysis.frames import StudyFrames, on_own_course, study_frames
 from analysis.group_comparisons import GroupComparison
@@ -21,6 +22,7 @@ from analysis.maps import participant_maps, plan_grid
 from analysis.outcome_exclusion import without_the_rule
 from analysis.place import with_place
 from analysis.practice import practice_table
+from analysis.processes import HERE, Processes
 from analysis.randomness import generator
 from analysis.registration import Registered, registered_plan
 from analysis.roles import first, reference_condition
@@ -92,6 +94,8 @@ class StudyResults:
         Demonstrator's and model's assistance maps compared; None unless there are both.
     surveys
         One per instrument.
+    policies
+        What the models have learnt about helping; None in a study without a learnt model of ours.
     live
         How good the sessions with living people were; None where there are none.
     people
@@ -116,6 +120,7 @@ class StudyResults:
     practice: pd.DataFrame
     overlap: TestResult | None
     surveys: tuple[SurveyResults, ...]
+    policies: Policies | None
     live: LiveQuality | None
     people: SideBySide | None
     measures: pd.DataFrame
@@ -125,7 +130,10 @@ class StudyResults:
 
 
 def analyse(
-    study: Study, progress: Progress | None = None, jobs: int = 1, beside: Study | None = None
+    study: Study,
+    progress: Progress | None = None,
+    others: Processes = HERE,
+    beside: Study | None = None,
 ) -> StudyResults:
     """Compute everything.
 
@@ -135,8 +143,8 @@ def analyse(
         The study.
     progress
         Told in a few words what is being done.
-    jobs
-        Number of processes for the steps of many laps; see ``analysis.processes.in_order``.
+    others
+        Processes that take part of the work.
     beside
         Another study, whose people are shown beside this one's; None for none.
 
@@ -148,12 +156,15 @@ def analyse(
     """
     frames = study_frames(study)
     people = side_by_side(frames, None if beside is None else study_frames(beside))
-    records = read_laps(frames, progress, jobs)
+    # Whatever needs no lap's steps first: other processes do it while this one reads them.
+    surveys = [others.later(_survey, frames, instrument) for instrument in study.instruments]
+    learnt = others.later(policies, study, _drivers(study))
+    records = read_laps(frames, progress, others)
     if progress is not None:
         progress("Comparing conditions")
     lap_times = lap_time_comparisons(frames)
     model, contrasts = _model(frames), _contrasts(frames)
-    surveys = tuple(_survey(frames, instrument) for instrument in study.instruments)
+    answers = tuple(survey() for survey in surveys)
     measures = measure_table(frames, records)
     declared, between = declared_results(frames)
     return StudyResults(
@@ -172,14 +183,20 @@ def analyse(
         contrasts=contrasts,
         practice=practice_table(frames, contrasts),
         overlap=_overlap(frames, records),
-        surveys=surveys,
+        surveys=answers,
+        policies=learnt(),
         live=live_quality(frames),
         people=people,
         measures=measures,
         sections=section_table(frames, records),
         reliability=reliability_table(frames, records),
-        paper=paper_table(frames, lap_times, [s.table for s in surveys], measures),
+        paper=paper_table(frames, lap_times, [s.table for s in answers], measures),
     )
+
+
+def _drivers(study: Study) -> list[str]:
+    """Return who drove a lap, in the order of the table of laps."""
+    return list(dict.fromkeys(study.laps.to_pandas()["participant"].astype(str)))
 
 
 def _model(frames: StudyFrames) -> tuple[TestResult, ...]:

@@ -1,6 +1,8 @@
 """A figure as bytes: the same figure gives the same bytes."""
 
 import io
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -11,6 +13,48 @@ from analysis.figures.missing_letters import figure_scripts
 from analysis.figures.text import literal_text, make_literal
 
 DPI = 150
+
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """A figure as files.
+
+    Attributes
+    ----------
+    svg, png
+        Their bytes.
+    places
+        Where the points that were asked for came to lie, in points from the upper left.
+    """
+
+    svg: bytes
+    png: bytes
+    places: tuple[Point, ...] = ()
+
+
+def drawn(figure: Figure, points: Sequence[Point] = ()) -> Drawing:
+    """Lay a figure out and draw it.
+
+    Parameters
+    ----------
+    figure
+        Not laid out yet.
+    points
+        Points in the units of its first axes, whose places are wanted.
+    """
+    settle(figure)
+    places = _places(figure, points) if points else ()
+    return Drawing(svg(figure), png(figure), places)
+
+
+def _places(figure: Figure, points: Sequence[Point]) -> tuple[Point, ...]:
+    width, height = 72 * figure.get_size_inches()
+    ends = figure.axes[0].transData.transform(points)
+    shares = figure.transFigure.inverted().transform(ends)
+    return tuple((round(float(width * x), 1), round(float(height * (1 - y)), 1)) for x, y in shares)
 
 
 def settle(figure: Figure) -> None:

@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from analysis.attainable import least_n
-from analysis.figures.files import png, settle, svg
 from analysis.figures.style import GREY, new_figure, tidy
 from analysis.power.pool import planned_practice
 from analysis.power.power import STUDIES, PowerRow, smallest_n
@@ -28,7 +27,7 @@ from analysis.report.blocks import (
     table,
 )
 from analysis.report.numbers import NOTHING, count, number, percent, plural
-from analysis.report.render import render
+from analysis.report.render import draw, figure_files, render
 from analysis.report.write import replace_folder
 from protocols.declared import Comparison
 from protocols.study import StudyProtocol
@@ -68,14 +67,11 @@ def write_power(folder: Path, study: PowerStudy) -> Path:
         When they cannot be written; an older page is still there then.
     """
     page = power_page(study)
-    for picture in page.pictures:
-        settle(picture.figure)
-    svgs = {picture.name: svg(picture.figure) for picture in page.pictures}
+    drawings = {name: wait() for name, wait in draw(page).items()}
     contents: dict[str, bytes] = {
-        "index.html": render(page, svgs).encode(),
+        "index.html": render(page, drawings).encode(),
         "power.json": power_json(study.rows).encode(),
-        **{f"{name}.svg": content for name, content in svgs.items()},
-        **{f"{picture.name}.png": png(picture.figure) for picture in page.pictures},
+        **figure_files(drawings),
         **{f"{t.name}.csv": t.frame.to_csv(index=False).encode() for t in page.tables},
     }
     replace_folder(folder / "power", contents)

@@ -170,7 +170,7 @@ class Picture:
 
     @property
     def size(self) -> tuple[float, float]:
-        """Width and height of the settled figure, points."""
+        """Width and height of the figure, points."""
         width, height = self.figure.get_size_inches()
         return float(72 * width), float(72 * height)
 
@@ -183,19 +183,6 @@ class Picture:
     def wide(self) -> bool:
         """Whether the figure needs the page's whole width for its letters to be read."""
         return self.size[0] > 550
-
-    @property
-    def placed(self) -> tuple[tuple[float, float, Spot], ...]:
-        """The spots, each with its place in the settled figure, points from the upper left."""
-        if not self.spots:
-            return ()
-        width, height = self.size
-        ends = self.figure.axes[0].transData.transform([(spot.x, spot.y) for spot in self.spots])
-        shares = self.figure.transFigure.inverted().transform(ends)
-        return tuple(
-            (round(float(width * x), 1), round(float(height * (1 - y)), 1), spot)
-            for (x, y), spot in zip(shares, self.spots, strict=True)
-        )
 
 
 Block = Paragraph | Remarks | Caution | Facts | Table | Picture

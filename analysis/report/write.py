@@ -4,10 +4,10 @@ import shutil
 from collections.abc import Callable
 from pathlib import Path
 
-from analysis.figures.files import png, settle, svg
 from analysis.lap_pages.study_page import STUDY_PAGE, study_page
+from analysis.processes import HERE, Processes
 from analysis.report.page import build_page
-from analysis.report.render import render
+from analysis.report.render import draw, figure_files, render
 from analysis.results import StudyResults, analyse
 from analysis.statistics import statistics_json
 from analysis.tables.csv_file import csv_file
@@ -44,7 +44,11 @@ def write_report(study_dir: Path, progress: Callable[[str], None] | None = None)
     return write_results(analyse(open_study(Path(study_dir)), progress), progress)
 
 
-def write_results(results: StudyResults, progress: Callable[[str], None] | None = None) -> Path:
+def write_results(
+    results: StudyResults,
+    progress: Callable[[str], None] | None = None,
+    others: Processes = HERE,
+) -> Path:
     """Write the report of a study that is analysed already; see ``write_report``.
 
     Parameters
@@ -53,6 +57,8 @@ def write_results(results: StudyResults, progress: Callable[[str], None] | None 
         As ``analyse`` returns them.
     progress
         Called with a few words about what is being done.
+    others
+        Processes that draw the figures.
 
     Raises
     ------
@@ -63,19 +69,16 @@ def write_results(results: StudyResults, progress: Callable[[str], None] | None 
     study_dir = results.frames.study.folder
     tell("Drawing figures")
     page = build_page(results)
-    svgs, pngs = {}, {}
-    for picture in page.pictures:
-        settle(picture.figure)
-        svgs[picture.name], pngs[picture.name] = svg(picture.figure), png(picture.figure)
+    waiting = draw(page, others)
     tables = {t.name: csv_file(t.frame) for t in page.tables}
     laps = study_page(results)
+    drawings = {name: wait() for name, wait in waiting.items()}
     tell("Writing the report")
     contents: dict[str, bytes] = {
-        "index.html": render(page, svgs).encode(),
+        "index.html": render(page, drawings).encode(),
         "statistics.json": statistics_json(results).encode(),
         **({} if laps is None else {STUDY_PAGE: laps.encode()}),
-        **{f"figures/{name}.svg": content for name, content in svgs.items()},
-        **{f"figures/{name}.png": content for name, content in pngs.items()},
+        **figure_files(drawings, "figures/"),
         **{f"tables/{name}.csv": content for name, content in tables.items()},
     }
     try:

@@ -5,9 +5,8 @@ import shutil
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from analysis.figures.files import png, settle, svg
 from analysis.report.blocks import Page, Section
-from analysis.report.render import render
+from analysis.report.render import draw, figure_files, render
 from analysis.reproduction.accuracy_rows import accuracy_rows
 from analysis.reproduction.driver_rows import driver_rows
 from analysis.reproduction.evidence import Evidence, gather
@@ -86,17 +85,13 @@ def rows_of(evidence: Evidence) -> tuple[Row, ...]:
 
 def contents_of(page: Page, rows: Sequence[Row]) -> dict[str, bytes]:
     """Return every file of a page by name."""
-    for picture in page.pictures:
-        settle(picture.figure)
-    svgs = {picture.name: svg(picture.figure) for picture in page.pictures}
-    pngs = {picture.name: png(picture.figure) for picture in page.pictures}
+    drawings = {name: wait() for name, wait in draw(page).items()}
     listed = json.dumps([row.as_json() for row in rows], indent=1, allow_nan=False)
     return {
-        f"{PAGE}.html": render(page, svgs).encode(),
+        f"{PAGE}.html": render(page, drawings).encode(),
         f"{PAGE}.md": markdown(page, rows).encode(),
         f"{PAGE}.json": f"{listed}\n".encode(),
-        **{f"figures/{name}.svg": content for name, content in svgs.items()},
-        **{f"figures/{name}.png": content for name, content in pngs.items()},
+        **figure_files(drawings, "figures/"),
         **{f"tables/{t.name}.csv": csv_file(t.frame) for t in page.tables},
     }
 

@@ -3,6 +3,7 @@
 import math
 import warnings
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +41,7 @@ def why_no_interval(interval: tuple[float, float], n: int) -> tuple[str, ...]:
 
 
 def bca_interval(
-    samples: tuple[NDArray[np.float64], ...],
+    samples: tuple[NDArray[Any], ...],
     statistic: Statistic,
     rng: np.random.Generator,
     level: float = 0.95,

@@ -5,7 +5,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
 
 from analysis.stats.bootstrap import FEWEST, RESAMPLES, bca_interval, why_no_interval
 from analysis.stats.result import TestResult
@@ -85,11 +84,12 @@ def rank_biserial(differences: Sample, rng: np.random.Generator, level: float = 
         return TestResult.missing("rank-biserial", 0, "no pair is complete")
     if not d.any():
         return TestResult.missing("rank-biserial", len(d), "every difference is zero")
-    low, high = bca_interval((d,), _rank_biserial, rng, level)
+    signed = _signed_levels(d)
+    low, high = bca_interval((signed,), _rank_biserial, rng, level)
     return TestResult(
         name="rank-biserial",
         quantity="matched-pairs rank-biserial correlation",
-        estimate=float(_rank_biserial(d)),
+        estimate=float(_rank_biserial(signed)),
         low=low,
         high=high,
         level=level,
@@ -115,9 +115,29 @@ def _dz(d: NDArray[np.float64], axis: int = -1) -> Any:
     return d.mean(axis=axis) / d.std(axis=axis, ddof=1)
 
 
-def _rank_biserial(d: NDArray[np.float64], axis: int = -1) -> Any:
-    ranks = np.asarray(stats.rankdata(np.abs(d), axis=axis))
-    positive = (ranks * (d > 0)).sum(axis=axis)
-    negative = (ranks * (d < 0)).sum(axis=axis)
+def _signed_levels(d: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return which size each difference has among the different sizes, from 1, with its sign.
+
+    Ranks follow from these as from the differences themselves; a zero is level 0.
+    """
+    sizes = np.unique(np.abs(d[d != 0]))
+    return np.where(d == 0, 0, np.sign(d) * (1 + np.searchsorted(sizes, np.abs(d)))).astype(
+        np.int64
+    )
+
+
+def _rank_biserial(signed: NDArray[np.int64], axis: int = -1) -> Any:
+    # Resamples of answers have few sizes: counting them ranks every resample without sorting it.
+    rows = np.moveaxis(signed, axis, -1)
+    flat = rows.reshape(-1, rows.shape[-1])
+    most = int(np.abs(flat).max(initial=0))
+    width = 2 * most + 1
+    cell = flat + (most + width * np.arange(len(flat)))[:, None]
+    counts = np.bincount(cell.ravel(), minlength=width * len(flat)).reshape(-1, width)
+    zeros, above, below = counts[:, most], counts[:, most + 1 :], counts[:, :most][:, ::-1]
+    tied = above + below
+    ranks = zeros[:, None] + np.cumsum(tied, axis=1) - (tied - 1) / 2  # of ties, their mean
+    positive, negative = (ranks * above).sum(axis=1), (ranks * below).sum(axis=1)
     total = positive + negative
-    return np.divide(positive - negative, total, out=np.zeros_like(total), where=total > 0)
+    share = np.divide(positive - negative, total, out=np.zeros_like(total), where=total > 0)
+    return share.reshape(rows.shape[:-1])

@@ -5,8 +5,9 @@ from typing import Annotated
 
 import typer
 
-from harness.cli.console import complain, progress_line, say
+from harness.cli.console import complain, say
 from harness.cli.options import check_least
+from harness.cli.reporting import write_report_of
 from protocols.files.errors import InputError
 
 EXTRA = "needs the web server's packages; install them with pip install 'lad-study[live]'"
@@ -79,10 +80,7 @@ def live(
         seats=seats, links=links, plan=plan, new_links=new_links,
     )  # fmt: skip
     if finished and not no_report:
-        from analysis.report import write_report
-
-        with progress_line() as tell:
-            page = write_report(folder, tell)
+        _, page = write_report_of(folder)
         say(f"Report: {page}")
     if not finished:
         complain("No session was finished; the same command resumes the study.")

@@ -5,8 +5,8 @@ from typing import Annotated
 
 import typer
 
-from harness.cli.console import progress_line, say
-from harness.cli.options import cores
+from harness.cli.console import say
+from harness.cli.reporting import warm_up_report, write_report_of
 
 
 def report(
@@ -27,11 +27,5 @@ def report(
 
     Example: lad-study report studies/four-lap-seed0
     """
-    from analysis.report.write import write_results
-    from analysis.results import analyse
-    from protocols.record.reader import open_study
-
-    other = None if beside is None else open_study(beside)
-    with progress_line() as tell:
-        page = write_results(analyse(open_study(study), tell, cores(), other), tell)
+    _, page = write_report_of(study, beside, warm=warm_up_report())
     say(f"Report: {page}")

@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from harness.cli.console import complain, progress_line, say
+from harness.cli.console import complain, say
 from harness.cli.options import check_least, cores
+from harness.cli.reporting import write_report_of
 
 if TYPE_CHECKING:
     from harness.running.runner import Outcome
@@ -161,13 +162,8 @@ def _what_nobody_finished(folder: Path) -> tuple[str, ...]:
 
 
 def _report(folder: Path) -> None:
-    from analysis.report.write import write_results
-    from analysis.results import analyse
     from harness.cli.lap_time_table import print_lap_times
-    from protocols.record.reader import open_study
 
-    with progress_line() as tell:
-        results = analyse(open_study(folder), tell, cores())
-        page = write_results(results, tell)
+    results, page = write_report_of(folder)
     print_lap_times(results)
     say(f"Report: {page}")

@@ -31,7 +31,7 @@ _FORKS = "forkserver" in multiprocessing.get_all_start_methods()
 _CONTEXT = (
     multiprocessing.get_context("forkserver") if _FORKS else multiprocessing.get_context("spawn")
 )
-_ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "BLIS")}
+ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "BLIS")}
 """For linear algebra: the cores are taken by other sessions."""
 
 LONGEST_FOLDER = 70
@@ -56,7 +56,7 @@ def warm_up(modules: Iterable[str]) -> None:
     # A folder in the working directory must not hide an installed package there.
     # Ctrl-C reaches every process of the terminal, but only the runner may act on it: it keeps what
     # is finished and ends the others. Each would otherwise end with a traceback of its own.
-    safe = {**_ONE_THREAD, "PYTHONSAFEPATH": "1"}
+    safe = {**ONE_THREAD, "PYTHONSAFEPATH": "1"}
     with signals_afterwards(), _environment(safe), _deaf_to_interrupts():
         forkserver.ensure_running()
 
@@ -163,7 +163,7 @@ class _Worker:
     def __init__(self) -> None:
         self.pipe, theirs = _CONTEXT.Pipe()
         self.process = _CONTEXT.Process(target=_serve, args=(theirs,), daemon=True)
-        with signals_afterwards(), _environment(_ONE_THREAD):
+        with signals_afterwards(), _environment(ONE_THREAD):
             self.process.start()
         theirs.close()  # else a dead worker's pipe would stay open
 

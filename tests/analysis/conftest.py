@@ -11,6 +11,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
+from analysis.figures.files import Drawing
+from analysis.report.blocks import Page
+from analysis.report.render import render
 from protocols.course.centreline import Centreline
 from protocols.load import resolve_study
 from protocols.record.reader import Study, open_study
@@ -277,3 +280,14 @@ def erase() -> Callable[..., None]:
             pq.write_table(steps.set_column(place, field, nothing), path)
 
     return erase
+
+
+@pytest.fixture(scope="session")
+def page_text() -> Callable[[Page], str]:
+    """Return a function from a page to its HTML, with every figure left empty."""
+
+    def text(page: Page) -> str:
+        empty = {p.name: Drawing(b"", b"", ((0.0, 0.0),) * len(p.spots)) for p in page.pictures}
+        return render(page, empty)
+
+    return text

@@ -9,7 +9,6 @@ from analysis.flow import participants_flow
 from analysis.frames import study_frames
 from analysis.outcomes import answers_by_participant
 from analysis.report.page import build_page
-from analysis.report.render import render
 from analysis.results import analyse
 from protocols.record.reader import open_study
 
@@ -152,12 +151,12 @@ def test_answers_off_the_scale_are_missing(elsewhere):
     assert frames.unread == (f"surveys.parquet: {said} (and 1 more)",)
 
 
-def test_without_readable_answers_the_rest_is_reported(elsewhere):
+def test_without_readable_answers_the_rest_is_reported(elsewhere, page_text):
     """A damaged table of answers is named; lap times and all else are there."""
     path = elsewhere / "surveys.parquet"
     path.write_bytes(path.read_bytes()[:-20])
     results = analyse(open_study(elsewhere))
     page = build_page(results)
-    text = render(page, {picture.name: b"" for picture in page.pictures})
+    text = page_text(page)
     assert "Not read, and treated as missing: surveys.parquet: not a readable Parquet" in text
     assert results.lap_times[0].complete == 2

@@ -11,6 +11,7 @@ from analysis.lap_records import read_laps
 from analysis.measures.path_length import path_length
 from analysis.measures.registry import MEASURES
 from analysis.measures.streams import at_hand
+from analysis.processes import processes
 
 
 def test_every_analysed_lap_is_measured_once(study):
@@ -108,7 +109,8 @@ def test_several_processes_read_what_one_reads(study, monkeypatch):
     one = read_laps(frames)
     monkeypatch.setattr(lap_records, "MANY", 1)
     monkeypatch.setattr(lap_records, "PIECE", 3)
-    two = read_laps(frames, jobs=2)
+    with processes(2) as others:
+        two = read_laps(frames, others=others)
     pd.testing.assert_frame_equal(one.measures, two.measures)
     pd.testing.assert_frame_equal(one.steps, two.steps)
     assert (one.gaps, one.unrecorded) == (two.gaps, two.unrecorded)

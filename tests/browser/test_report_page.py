@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import pandas as pd
 import pytest
 
-from analysis.figures.files import svg
+from analysis.figures.files import drawn
 from analysis.report.blocks import (
     Caution,
     Fact,
@@ -49,18 +49,18 @@ def _page(text):
         table("folded", text, frame, shown, folded=True),
     )
     page = Page(text, text, (Section("answer", text, blocks),))
-    drawn = svg(figure)
+    drawing = drawn(figure)
     plt.close(figure)
-    return render(page, {"figure": drawn}), drawn
+    return render(page, {"figure": drawing}), drawing.svg
 
 
 @pytest.mark.parametrize("text", HOSTILE)
 def test_a_hostile_text_stays_text(visit, tmp_path, text):
     """In every place of the page, and in a figure opened by itself; the file's name, too."""
-    html, drawn = _page(text)
+    html, figure = _page(text)
     name = re.sub(r"[/\x00]", "", text)[:60]
     (tmp_path / f"{name}.html").write_text(html)
-    (tmp_path / "figure.svg").write_bytes(drawn)
+    (tmp_path / "figure.svg").write_bytes(figure)
     page = visit((tmp_path / f"{name}.html").as_uri())
     page.locator("details summary").click()
     page.wait_for_timeout(100)

@@ -4,7 +4,7 @@ from typing import Any
 
 from analysis.explain.demonstrators import MEASURES
 from analysis.explain.figure import dependence_figure
-from analysis.explain.policies import Policies, policies
+from analysis.explain.policies import Policies
 from analysis.report.blocks import Block, Paragraph, Picture, Section, Shown, table
 from analysis.report.numbers import number, plural
 from analysis.results import StudyResults
@@ -12,9 +12,7 @@ from analysis.results import StudyResults
 
 def policy_section(results: StudyResults) -> Section | None:
     """Return what when and how depend on; None in a study without a learnt model of ours."""
-    study = results.frames.study
-    known = dict.fromkeys(study.laps.to_pandas()["participant"].astype(str))
-    found = policies(study, list(known))
+    found = results.policies
     if found is None:
         return None
     return Section("policy", "What the model has learnt about helping", tuple(_blocks(found)))

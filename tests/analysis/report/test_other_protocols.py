@@ -4,7 +4,6 @@ import pytest
 
 from analysis.frames import study_frames
 from analysis.report.page import build_page
-from analysis.report.render import render
 from analysis.results import analyse
 
 HEAD = """
@@ -25,7 +24,7 @@ laps:
 
 
 @pytest.fixture
-def page(make_study, tmp_path):
+def page(make_study, tmp_path, page_text):
     """Return a function from a driver and the conditions of the laps to results and page text."""
 
     def write(driver, *conditions):
@@ -34,7 +33,7 @@ def page(make_study, tmp_path):
         path.write_text(HEAD.replace("DRIVER", driver) + laps)
         results = analyse(make_study(path, participants=2))
         built = build_page(results)
-        return results, render(built, {picture.name: b"" for picture in built.pictures})
+        return results, page_text(built)
 
     return write
 

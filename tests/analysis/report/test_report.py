@@ -12,7 +12,6 @@ import pytest
 
 from analysis.report import write_report
 from analysis.report.page import build_page
-from analysis.report.render import render
 from analysis.report.write import replace_folder
 from analysis.results import analyse
 from analysis.statistics import statistics_json
@@ -148,28 +147,28 @@ def test_the_same_study_gives_the_same_report(report, study, tmp_path):
         "nobody",
     ],
 )
-def test_what_cannot_be_computed_is_said_and_the_rest_computed(make_study, events, said):
+def test_what_cannot_be_computed_is_said_and_the_rest_computed(make_study, events, said, page_text):
     """The page is written whatever happened, and says why something is missing."""
     page = build_page(analyse(make_study(**events)))
-    text = render(page, {picture.name: b"" for picture in page.pictures})
+    text = page_text(page)
     assert said in text
     assert "nan" not in text.lower().split()
 
 
-def test_columns_without_a_value_are_named_and_the_rest_is_computed(make_study, erase):
+def test_columns_without_a_value_are_named_and_the_rest_is_computed(make_study, erase, page_text):
     """Without positions there is no map, and the page says so; lap times are there."""
     study = make_study(participants=3)
     for column in ("x_m", "y_m", "h_would"):
         erase(study.folder, column)
     page = build_page(analyse(open_study(study.folder)))
-    text = render(page, {picture.name: b"" for picture in page.pictures})
+    text = page_text(page)
     assert "Not recorded in any step: h_would, x_m, y_m." in text
     assert "No map: no position was recorded in any step." in text
     assert "assistance_map" not in {picture.name for picture in page.pictures}
     assert len(next(t for t in page.tables if t.name == "lap_times").rows) == 4
 
 
-def test_steps_that_cannot_be_used_are_named(make_study):
+def test_steps_that_cannot_be_used_are_named(make_study, page_text):
     """Whole seconds at 10 Hz and an infinite probability: a report that says what is missing."""
     study = make_study(participants=2)
     for path in study.folder.rglob("steps-4.parquet"):
@@ -178,12 +177,12 @@ def test_steps_that_cannot_be_used_are_named(make_study):
         steps.loc[3, ["p_help", "x_m"]] = math.inf
         steps.to_parquet(path)
     page = build_page(analyse(open_study(study.folder)))
-    text = render(page, {picture.name: b"" for picture in page.pictures})
+    text = page_text(page)
     assert "In the steps of 2 laps, t_s does not increase from step to step" in text
     assert "In the steps of 2 laps, p_help is infinite in some steps" in text
 
 
-def test_minimal_tables_from_elsewhere_are_reported(make_study):
+def test_minimal_tables_from_elsewhere_are_reported(make_study, page_text):
     """Participants by id alone, laps with five columns, no steps, no answers: a report."""
     study = make_study(participants=2)
     folder = study.folder
@@ -203,39 +202,39 @@ def test_minimal_tables_from_elsewhere_are_reported(make_study):
     laps = ["participant", "lap", "condition", "completed", "lap_time_s", "practice"]
     study.laps.select(laps).to_pandas().to_parquet(folder / "laps.parquet")
     page = build_page(analyse(open_study(folder)))
-    text = render(page, {picture.name: b"" for picture in page.pictures})
+    text = page_text(page)
     assert "8 laps came without steps" in text
     assert "% faster" in text
 
 
-def test_answers_of_synthetic_people_are_called_assumptions(study):
+def test_answers_of_synthetic_people_are_called_assumptions(study, page_text):
     """In the questionnaire's section and beside the paper's percentages."""
     page = build_page(analyse(study))
-    text = render(page, {picture.name: b"" for picture in page.pictures})
+    text = page_text(page)
     assert text.count("consequences of these assumptions, not findings") == 2
 
 
-def test_why_an_interval_is_missing_is_said(make_study):
+def test_why_an_interval_is_missing_is_said(make_study, page_text):
     """One participant: a mean, and a remark that says why it stands alone."""
     page = build_page(analyse(make_study(participants=1)))
-    text = render(page, {picture.name: b"" for picture in page.pictures})
+    text = page_text(page)
     assert "mean difference: one pair: no interval and no t test" in text
     assert "practice would" not in text
     assert "the section on practice shows" not in text
 
 
-def test_folded_tables_are_printed(study):
+def test_folded_tables_are_printed(study, page_text):
     """Paper cannot be unfolded."""
     page = build_page(analyse(study))
-    text = render(page, {picture.name: b"" for picture in page.pictures})
+    text = page_text(page)
     assert "details::details-content { content-visibility: visible" in text
 
 
-def test_a_withdrawal_is_shown_in_its_words(make_study):
+def test_a_withdrawal_is_shown_in_its_words(make_study, page_text):
     """What a participant said is text on the page, whatever is in it; silence is said too."""
     words = {1: "<b>dizzy</b> & tired"}
     page = build_page(analyse(make_study(withdrew={1: 3, 2: 3}, words=words)))
-    text = render(page, {picture.name: b"" for picture in page.pictures})
+    text = page_text(page)
     assert "&lt;b&gt;dizzy&lt;/b&gt; &amp; tired" in text
     assert "<b>dizzy" not in text
     assert "no reason recorded" in text
@@ -247,7 +246,7 @@ def test_without_withdrawals_there_is_no_table_of_them(report):
     assert not (report / "tables" / "withdrawals.csv").exists()
 
 
-def test_versions_come_with_the_number_of_sessions(make_study):
+def test_versions_come_with_the_number_of_sessions(make_study, page_text):
     """Each set of package versions that recorded sessions is stated, and how many it recorded."""
     folder = make_study(participants=3).folder
     path = folder / "sessions" / "P0003" / "manifest.json"
@@ -255,7 +254,7 @@ def test_versions_come_with_the_number_of_sessions(make_study):
     path.write_text(json.dumps(manifest | {"versions": {"numpy": "0.1"}}))
     results = analyse(open_study(folder))
     page = build_page(results)
-    text = render(page, {picture.name: b"" for picture in page.pictures})
+    text = page_text(page)
     assert "Recording (1 session): numpy 0.1." in text
     assert "Recording (2 sessions): " in text
     recording = json.loads(statistics_json(results))["versions"]["recording"]
@@ -285,13 +284,13 @@ def test_a_failure_leaves_the_old_report(tmp_path):
     assert [p.name for p in tmp_path.iterdir()] == ["report"]
 
 
-def test_a_damaged_step_table_does_not_stop_the_report(make_study):
+def test_a_damaged_step_table_does_not_stop_the_report(make_study, page_text):
     """The file is named on the page; the participant is missing from the overlap, and counted."""
     study = make_study(participants=4)
     (study.folder / "sessions" / "P0002" / "steps-4.parquet").write_bytes(b"PAR1 is not enough")
     results = analyse(study)
     page = build_page(results)
-    text = render(page, {picture.name: b"" for picture in page.pictures})
+    text = page_text(page)
     assert "Not read, and treated as missing: sessions/P0002/steps-4.parquet: " in text
     assert len(json.loads(statistics_json(results))["not_read"]) == 1
     note = "1 participant without recorded steps in both conditions left out"
