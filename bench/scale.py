@@ -132,7 +132,7 @@ def writer(arguments: argparse.Namespace) -> list[dict[str, Any]]:
 
 
 class _Look(NamedTuple):
-    """Resident memory at one moment; pages that processes share count in each of them."""
+    """Memory at one moment; pages that processes share count once, a part in each of them."""
 
     counted: int
     own_mb: float
@@ -146,8 +146,8 @@ def _watched(command: Sequence[str], count: Callable[[], int]) -> tuple[float, l
     running = subprocess.Popen(command)  # noqa: S603  # our own command
     process, memory = psutil.Process(running.pid), []
     while running.poll() is None:
-        own = _resident(process)
-        children = [_resident(child) for child in process.children(recursive=True)]
+        own = _memory(process)
+        children = [_memory(child) for child in process.children(recursive=True)]
         memory.append(_Look(count(), own, own + sum(children), max(children, default=0.0)))
         time.sleep(EVERY_S)
     if running.returncode:
@@ -155,10 +155,10 @@ def _watched(command: Sequence[str], count: Callable[[], int]) -> tuple[float, l
     return time.perf_counter() - begun, memory
 
 
-def _resident(process: psutil.Process) -> float:
+def _memory(process: psutil.Process) -> float:
     try:
-        return float(process.memory_info().rss) / MB
-    except psutil.NoSuchProcess:
+        return float(process.memory_full_info().pss) / MB
+    except (psutil.NoSuchProcess, psutil.AccessDenied):
         return 0.0
 
 

@@ -44,8 +44,9 @@ def map_overlap(
     Inman & Bradley (1989), Communications in Statistics 18(10), 3851-3874.
     """
     both = (first.sum(axis=1) > 0) & (second.sum(axis=1) > 0)
-    cells = (first[both].sum(axis=0) > 0) | (second[both].sum(axis=0) > 0)
-    f, g = first[both][:, cells], second[both][:, cells]
+    rows = both[:, None]  # as a mask: a selection would copy maps of a thousand participants
+    cells = (first.sum(axis=0, where=rows) > 0) | (second.sum(axis=0, where=rows) > 0)
+    f, g = first[np.ix_(both, cells)], second[np.ix_(both, cells)]
     n = int(both.sum())
     if n < 2:
         return TestResult.missing(_NAME, n, "needs 2 participants with help from both sources")
