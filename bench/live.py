@@ -155,8 +155,8 @@ def by_programs(sessions: int, seconds: float) -> tuple[np.ndarray, list[float]]
         return np.concatenate(late), answers
 
 
-def by_browser(view: str, presses: int) -> list[float]:
-    """Return how long each of so many key presses took until its turn was drawn, s."""
+def by_browser(view: str, presses: int) -> tuple[list[float], float]:
+    """Return how long each of so many presses took until its turn was drawn, s, and frames/s."""
     from playwright.sync_api import sync_playwright  # noqa: PLC0415  # optional
 
     lap = protocol(1, 10 + presses * (REST_S + PRESSED_S), view)
@@ -164,11 +164,14 @@ def by_browser(view: str, presses: int) -> list[float]:
     with serving(lap, 1) as (_, port, token), sync_playwright() as play:
         chromium = play.chromium.launch(executable_path=path, args=["--no-sandbox"])
         tab = chromium.new_page(viewport={"width": 1280, "height": 800})
-        tab.add_init_script(path=HERE / "key_to_frame.js")
+        apart = "true" if view == "first-person" else "false"
+        tab.add_init_script(f"const apart = {apart};" + (HERE / "key_to_frame.js").read_text())
         tab.goto(f"http://127.0.0.1:{port}/p/{token}")
         for button in ("check-continue", "instructions-continue", "lap-start"):
             tab.get_by_test_id(button).click(timeout=60_000)
         tab.wait_for_selector("[data-pose]", timeout=60_000)
+        tab.wait_for_selector("[data-drawn]", timeout=60_000)
+        begun, drawn = time.monotonic(), int(tab.evaluate("document.body.dataset.drawn"))
         for press in range(presses):
             time.sleep(REST_S)
             key = "ArrowLeft" if press % 2 else "ArrowRight"
@@ -176,8 +179,10 @@ def by_browser(view: str, presses: int) -> list[float]:
             time.sleep(PRESSED_S)
             tab.keyboard.up(key)
         took: list[float] = json.loads(tab.evaluate("document.body.dataset.took"))
+        drawn = int(tab.evaluate("document.body.dataset.drawn")) - drawn
+        rate = drawn / (time.monotonic() - begun)
         chromium.close()
-        return took
+        return took, rate
 
 
 def main() -> None:
@@ -196,12 +201,14 @@ def main() -> None:
         late_ms = f"{p50:.2f} | {p99:.2f} | {most:.1f}"
         print(f"| {sessions} | {load:.1f} | {late_ms} | {_quantiles(answers)} |", flush=True)
     if options.presses:
-        print("\n| view | load before | presses | key to frame p50, p90 ms | of a step |\n"
-              "|---|---:|---:|---:|---:|")  # fmt: skip
+        print("\n| view | load before | frames a second | presses | key to frame p50, p90 ms | "
+              "of a step |\n|---|---:|---:|---:|---:|---:|")  # fmt: skip
     for view in ("plan", "first-person") if options.presses else ():
         load = os.getloadavg()[0]
-        took = by_browser(view, options.presses)
-        print(f"| {view} | {load:.1f} | {len(took)} | {_quantiles(took)} |", flush=True)
+        took, rate = by_browser(view, options.presses)
+        print(
+            f"| {view} | {load:.1f} | {rate:.0f} | {len(took)} | {_quantiles(took)} |", flush=True
+        )
 
 
 def _quantiles(seconds: list[float]) -> str:

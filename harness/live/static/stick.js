@@ -1,10 +1,17 @@
-// Keyboard, gamepad and touch as one stick. Keys ramp; gamepad and touch have a dead zone.
+// Keyboard, gamepad and touch as one stick. Keys ramp, from START on so that a press is felt at once;
+// gamepad and touch have a dead zone.
 export const KEYS = { ArrowUp: [1, 0], KeyW: [1, 0], ArrowDown: [-1, 0], KeyS: [-1, 0],
   ArrowLeft: [0, 1], KeyA: [0, 1], ArrowRight: [0, -1], KeyD: [0, -1] };
-const RAMP_S = 0.25, DEAD = 0.12, EVERY_MS = 20;
+const RAMP_S = 0.25, START = 0.3, DEAD = 0.12, EVERY_MS = 20;
 
 // What lies within the dead zone is nothing; the rest goes from 0 to full.
 const zone = (v) => (Math.abs(v) < DEAD ? 0 : Math.sign(v) * (Math.abs(v) - DEAD) / (1 - DEAD));
+
+// What keys hold ramps towards its goal; a press from rest begins at START.
+function towards(value, goal, step) {
+  const from = goal && value * goal >= 0 ? goal * Math.max(value * goal, START) : value;
+  return from + Math.max(-step, Math.min(step, goal - from));
+}
 
 export function makeStick(send, options = {}) {
   const held = new Set();
@@ -16,7 +23,12 @@ export function makeStick(send, options = {}) {
   const isClutch = (event) => event.code === "Space" && options.clutch;
   addEventListener("keydown", (event) => {
     if (!timer || stick.blocked || typing(event)) return;
-    if (event.code in KEYS) { held.add(event.code); stick.device = "keyboard"; event.preventDefault(); }
+    if (event.code in KEYS) {
+      event.preventDefault();
+      held.add(event.code);
+      stick.device = "keyboard";
+      if (!event.repeat) read();
+    }
     if (isClutch(event)) { event.preventDefault(); if (!event.repeat) press("key", true); }
   });
   addEventListener("keyup", (event) => {
@@ -56,8 +68,7 @@ export function makeStick(send, options = {}) {
     } else {
       let f = 0, l = 0;
       for (const code of held) { f += KEYS[code][0]; l += KEYS[code][1]; }
-      const towards = (value, goal) => value + Math.max(-step, Math.min(step, Math.sign(goal) - value));
-      stick.f = towards(stick.f, f); stick.l = towards(stick.l, l);
+      stick.f = towards(stick.f, Math.sign(f), step); stick.l = towards(stick.l, Math.sign(l), step);
     }
   }
 

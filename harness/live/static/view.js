@@ -10,11 +10,21 @@ export function hasWebGL() {
   return webgl;
 }
 
-// Returns what draws on a canvas; null where there is no WebGL. `counted` is told of pictures drawn.
-export function openView(canvas, course, counted) {
+const SLOW = 20, COARSEST = 0.3;
+
+// Returns what draws on a canvas; null where there is no WebGL. `tell` is told of pictures drawn.
+// Where fewer than SLOW are drawn a second, such as without a graphics card, they become coarser.
+export function openView(canvas, course, tell) {
   if (!hasWebGL()) return null;
+  let share = 1, since = performance.now(), drawn = 0;
+  const counted = (n) => { drawn += n; tell(n); };
   const size = () => {
-    const scale = Math.min(window.devicePixelRatio || 1, 2);
+    const now = performance.now();
+    if (now - since > 1000) {
+      if (drawn < SLOW && now - since < 2000) share = Math.max(0.7 * share, COARSEST);  // else it was hidden
+      since = now; drawn = 0;
+    }
+    const scale = share * Math.min(window.devicePixelRatio || 1, 2);
     return [Math.round(canvas.clientWidth * scale), Math.round(canvas.clientHeight * scale)];
   };
   if (canvas.transferControlToOffscreen && window.Worker) {

@@ -2,10 +2,10 @@
 // drawing there would hold up the stick's messages.
 import { makeView } from "./view3d.js";
 
-let view = null, news = null, drawn = 0;
+let view = null, news = null;
 
 function loop() {
-  if (news) { view.draw(news.pose, news.gate, news.w, news.h); news = null; drawn += 1; }
+  if (news) { view.draw(news.pose, news.gate, news.w, news.h); news = null; postMessage({ drawn: 1 }); }
   requestAnimationFrame(loop);
 }
 
@@ -14,6 +14,6 @@ onmessage = (event) => {
   if (message.canvas) {
     view = makeView(message.canvas, message.course);
     postMessage({ ready: Boolean(view) });
-    if (view) { requestAnimationFrame(loop); setInterval(() => { postMessage({ drawn }); drawn = 0; }, 200); }
+    if (view) requestAnimationFrame(loop);
   } else news = message;
 };
