@@ -143,7 +143,7 @@ def _plan(frames: StudyFrames, registration: Registration) -> Row:
 def _sample(frames: StudyFrames, registration: Registration) -> Row:
     recorded = len(frames.everybody)
     if frames.study.header.origin == "live":  # people who left were replaced
-        people = enrolled(frames.study.folder, map(str, frames.everybody))
+        people = enrolled(frames.study.folder, map(str, frames.everybody["participant"]))
         recorded = sum(person.state == "usable" for person in people)
     wanted = registration.participants
     return _row("participants", str(wanted), str(recorded), kept=recorded == wanted)

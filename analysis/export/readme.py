@@ -82,7 +82,7 @@ def readme(content: Content, how_to_read: str) -> str:
 def _in_short(content: Content) -> str:
     return (
         f"{_FROM[content.study.header.origin]} {len(content.people)} participants, "
-        f"{len(content.laps.rows)} laps on the course {content.study.course.name}. "
+        f"{len(content.laps.rows)} laps on the course {content.study.course_names}. "
         f"Exported by lad-study {_version()}."
     )
 

@@ -51,7 +51,7 @@ def build_page(results: StudyResults) -> Page:
     seed = "" if study.seed is None else f", seed {study.seed}"
     return Page(
         title=protocol.title,
-        subtitle=f"Protocol {protocol.name}, course {study.course.name}{seed}; "
+        subtitle=f"Protocol {protocol.name}, course {study.course_names}{seed}; "
         f"{results.flow.analysed} of {_all(results.flow)} participants analysed",
         sections=tuple(
             found

@@ -8,6 +8,10 @@ from analysis.stats.samples import Sample, settled
 
 _NAME = "equivalence (TOST)"
 
+SKEWED = 1.0
+"""Skewness from which it is said that the test does not keep its level; twelve normal differences
+reach it in 7% of all studies."""
+
 
 def paired_tost(differences: Sample, margin: float, alpha: float = 0.05) -> TestResult:
     """Test whether a mean paired difference lies within a margin of zero.
@@ -53,6 +57,11 @@ def paired_tost(differences: Sample, margin: float, alpha: float = 0.05) -> Test
     above_lower, below_upper = (mean + margin) / error, (mean - margin) / error
     p = max(float(stats.t.sf(above_lower, df)), float(stats.t.cdf(below_upper, df)))
     half = float(stats.t.ppf(1 - alpha, df)) * error
+    skewness = float(stats.skew(d))
+    skewed = (
+        f"the differences are skewed ({skewness:.1f}): t-tests of few people then call conditions "
+        "alike too often where the true difference is on the side of the long tail"
+    )
     return TestResult(
         name=_NAME,
         quantity="mean difference",
@@ -65,4 +74,6 @@ def paired_tost(differences: Sample, margin: float, alpha: float = 0.05) -> Test
         p=p,
         n=len(d),
         method=f"two one-sided paired t-tests, margin {margin:g}, larger p; t on {df} df",
+        checks=(f"skewness of the differences {skewness:.2f}",),
+        notes=(skewed,) if abs(skewness) > SKEWED else (),
     )

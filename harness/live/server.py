@@ -81,7 +81,9 @@ def make_app(study: LiveStudy, hosts: frozenset[str], origins: frozenset[str]) -
 class _Server:
     def __init__(self, study: LiveStudy) -> None:
         self._study = study
-        self._course = course_picture(study.run.study.course)
+        resolved = study.run.study
+        self._course = course_picture(resolved.course)
+        self._courses = {name: course_picture(c) for name, c in resolved.group_courses.items()}
         self._static = {
             file.name: file.read_bytes()
             for file in files("harness.live").joinpath("static").iterdir()
@@ -143,7 +145,7 @@ class _Server:
             "type": "welcome",
             "role": "participant",
             "person": person,
-            "course": self._course,
+            "course": self._course_of(visit),
             "live": _for_participant(protocol.live.model_dump(mode="json")),
             "period_s": protocol.control_period_s,
         }
@@ -151,6 +153,10 @@ class _Server:
         await self._serve_seat(
             socket, visit.participant, lambda m: _from_participant(visit, m), visit
         )
+
+    def _course_of(self, visit: Visit) -> dict[str, object]:
+        """Return the picture of the course that a session's participant drives."""
+        return self._courses.get(visit.group or "", self._course)
 
     def _visit_of(self, hello: messages.Hello, grant: Grant) -> Visit | None:
         """Return the session that a browser belongs to: its own, or the next one."""
@@ -179,6 +185,7 @@ class _Server:
         await socket.send_text(json.dumps(welcome))
         gone = asyncio.Event()
         sticks: dict[str, Mailbox] = {}
+        course = self._course
         reading = asyncio.create_task(
             self._read(socket, lambda m: _to_seat(sticks.get("seat"), m), gone)
         )
@@ -189,6 +196,9 @@ class _Server:
                     await socket.send_text(json.dumps({"type": "lobby"}))
                     await _either(gone, 0.3)
                     continue
+                if self._course_of(visit) is not course:
+                    course = self._course_of(visit)
+                    await socket.send_text(json.dumps({"type": "course", "course": course}))
                 sticks["seat"] = visit.demonstrator
                 await self._feed(socket, visit.demonstrator, gone, visit.wants_demonstrator)
                 sticks.pop("seat", None)
@@ -207,6 +217,7 @@ class _Server:
             "type": "welcome",
             "role": "experimenter",
             "course": self._course,
+            "courses": self._courses,
         }
         await socket.send_text(json.dumps(welcome))
         gone = asyncio.Event()

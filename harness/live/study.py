@@ -100,11 +100,6 @@ class LiveStudy:
         lockstep: bool = False,
         on_change: Callable[[], None] = lambda: None,
     ) -> None:
-        for name in run.study.group_courses:
-            place = run.study.at(f"groups.{name}.course")
-            raise InputError(
-                f"{place}living participants all drive one course; allowed: no course in a group"
-            )
         self.folder, self.seats = folder, seats
         run = portable(run)
         header: StudyHeader = open_folder(folder, run.study, run.seed, "live")
@@ -119,7 +114,7 @@ class LiveStudy:
         whole = whole_sessions(folder, header.digest)
         self._people = {e.participant: e for e in enrolled(folder, {*begun, *whole})}
         self.allocations = read_allocations(folder)
-        self._make_world = _one_world_at_a_time(self.run)
+        self._make_world = _one_world_at_a_time()
 
     @property
     def planned(self) -> int:
@@ -330,11 +325,11 @@ def _revoked(private: Path) -> tuple[str, ...]:
     return tuple(json.loads(path.read_bytes())) if path.exists() else ()
 
 
-def _one_world_at_a_time(run: StudyRun) -> Callable[[], World]:
-    """Return a function that makes a world of its own for each session."""
+def _one_world_at_a_time() -> Callable[[StudyRun], World]:
+    """Return a function that makes a world of its own for each session, of its study's course."""
     making = threading.Lock()
 
-    def make() -> World:
+    def make(run: StudyRun) -> World:
         with making:  # PyBullet's loading of files is not meant for several threads
             return world_of(run, shared=False)
 

@@ -22,11 +22,12 @@ from harness.session.parts import Seats
 from harness.session.replay import ReplayedClock, events_of, is_next
 from harness.session.session import Session
 from harness.session.stages import Stage
-from harness.session.study_run import StudyRun
+from harness.session.study_run import StudyRun, of_one
 from harness.world.world import World
 from participants.driver import WithdrewError, kind_of
 from participants.live.pictures import after_step
 from participants.live.seat import Request
+from protocols.order import group_of
 from protocols.record.journal import journal_header, read_journal
 from protocols.record.rows import LapRow, participant_id
 from protocols.record.session import SessionRecord
@@ -80,7 +81,7 @@ class Visit:
     journal
         Where its journal is kept; its folder exists.
     make_world
-        Called on the session's own thread.
+        Makes a world of a study's course; called on the session's own thread.
     finish
         Called on that thread with the record, once the session is over.
     fail
@@ -96,6 +97,8 @@ class Visit:
         How the session ended for its participant; meaningless before it is over.
     abandoned
         Whether an earlier process began the session: the next browser without a seat gets it.
+    group
+        The participant's group; None in a study without groups.
     """
 
     def __init__(
@@ -103,7 +106,7 @@ class Visit:
         run: StudyRun,
         number: int,
         journal: Path,
-        make_world: Callable[[], World],
+        make_world: Callable[[StudyRun], World],
         *,
         finish: Callable[["Visit", SessionRecord], None],
         fail: Callable[["Visit", str], None],
@@ -112,7 +115,9 @@ class Visit:
         self.name = participant_id(number)
         self._run, self._number, self._path = run, number, journal
         self._make_world, self._finish, self._fail = make_world, finish, fail
-        self._living = visitors_of(run)
+        self._own = of_one(run, number)  # conditions, demonstrator and course of the group
+        self.group = group_of(run.study.protocol, run.slot_of(number), run.seed)
+        self._living = visitors_of(self._own)
         self.participant = Mailbox(
             lockstep=lockstep, on_change=lambda there: self._came("participant", there)
         )
@@ -256,6 +261,7 @@ class Visit:
         step, stage = self._step, self._stage
         shown: dict[str, Any] = {
             "participant": self.name,
+            "group": self.group,
             "state": self.state,
             "stage": stage.kind if stage else None,
             "page": self.participant.page_kind,
@@ -345,9 +351,9 @@ class Visit:
             self.participant if self._living.participant else None,
             _DemonstratorsSeat(self) if self._living.demonstrator else None,
         )
-        world = self._make_world()
+        world = self._make_world(self._own)
         lent = replace(run, previous=model_before(self._path.parents[1], self._number))
-        parts = make_all_parts(lent, self._number, world, seats)
+        parts = make_all_parts(lent, self._number, self._pilots(world), seats)
         header = journal_header(run.study, run.seed, name, kind_of(parts.lap.driver))
         journal = FileJournal(self._path, header)
         self._open_journal(journal)
@@ -389,6 +395,11 @@ class Visit:
                 self.farewell = "ended"
         return replace(record, events=events_of(read_journal(self._path)))
 
+    def _pilots(self, world: World) -> World:
+        """Return the world in which a pilot teaches: of the study's own course."""
+        here = self._own.study.course == self._run.study.course
+        return world if here or not self._run.study.protocol.models else self._make_world(self._run)
+
     def _take_up_withdrawal(self) -> None:
         """Let a withdrawal stand that an earlier process noted, and could not carry out."""
         for event in events_of(read_journal(self._path)):
@@ -398,7 +409,7 @@ class Visit:
     def _helped(self) -> bool:
         """Tell whether the demonstrator's help counts in the stage at hand."""
         planned = self._stage.planned if self._stage else None
-        conditions = self._run.study.protocol.conditions
+        conditions = self._own.study.protocol.conditions
         return planned is not None and conditions[planned.condition].assistant == "demonstrator"
 
     def _agreed(self, *, agreed: bool) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 from harness.running.sessions import world_of
 from harness.session.borrowed import borrowed_models
 from harness.session.replay import replay
-from harness.session.study_run import StudyRun
+from harness.session.study_run import StudyRun, of_one
 from protocols.files.errors import InputError
 from protocols.record.enrolment import slot_of
 from protocols.record.header import read_header
@@ -87,8 +87,8 @@ def _recover(folder: Path, run: StudyRun, name: str) -> None:
     journal = read_journal(folder / JOURNALS / f"{name}.jsonl")
     if not number:
         raise InputError(f"{journal.path}: no participant is called {name!r}; allowed: P0001, ...")
-    world = world_of(run)
     run = replace(run, slot=slot_of(folder, name))
     lent = replace(run, previous=model_before(folder, number))
-    record = replay(journal, run, number, world, borrowed_models(lent, number, world))
+    models = borrowed_models(lent, number, world_of(run))  # a pilot drives the study's own course
+    record = replay(journal, run, number, world_of(of_one(run, number)), models)
     write_session(folder, name, encode(record, run.digest), keep_damaged=True)

@@ -65,6 +65,11 @@ class Study:
         named = {one.name: one for one in (self.course, *self.header.group_courses.values())}
         return tuple(named.values())
 
+    @property
+    def course_names(self) -> str:
+        """The names of the courses that were driven, in words."""
+        return " and ".join(course.name for course in self.courses)
+
     def course_of(self, participant: str) -> Course:
         """Return the course that a participant drove: a group may have another one."""
         if not self.header.group_courses:

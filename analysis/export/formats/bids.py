@@ -235,7 +235,7 @@ def _recording(content: Content, lap: LapSteps) -> dict[str, Any]:
     kinds = [channel.kind for channel in CHANNELS]
     return {
         "TaskName": file_label(str(lap.lap["condition"])),
-        "TaskDescription": f"A lap of {content.study.course.name}, {lap.lap['condition']}",
+        "TaskDescription": f"A lap of {content.study.course_names}, {lap.lap['condition']}",
         "TrackingSystemName": SYSTEM,
         "SamplingFrequency": round(1 / content.study.protocol.control_period_s, 9),
         "RecordingType": "continuous",

@@ -103,7 +103,7 @@ def frames_per_second(period_s: float) -> int:
 
 def task_sentence(content: Content, condition: str) -> str:
     """Return a condition as the dataset's tasks name it."""
-    return f"Drive a lap of {content.study.course.name}: {condition}"
+    return f"Drive a lap of {content.study.course_names}: {condition}"
 
 
 class _Parts:

@@ -122,11 +122,14 @@ def _sentence(c: PairedComparison) -> str:
 def _equivalence(c: PairedComparison, found: TestResult) -> str:
     corrected = math.isfinite(c.p_holm)
     p = c.p_holm if corrected else found.p
+    confounded = p < ALPHA and c.practice in ("confounded", "adjusted")
+    shown = "not concluded" if confounded else "shown" if p < ALPHA else "not shown"
+    why = ", and practice, which this test is not adjusted for, may hide a difference"
+    notes = "".join(f" {note[0].upper()}{note[1:]}." for note in found.notes)
     return (
-        f" Equivalence within the declared margin of ±{c.margin:g} {c.unit} is "
-        f"{'shown' if p < ALPHA else 'not shown'} (TOST {is_p(p)}, "
-        f"{'after Holm' if corrected else 'not corrected'}; 90% interval "
-        f"{interval(found.low, found.high)} {c.unit})."
+        f" Equivalence within the declared margin of ±{c.margin:g} {c.unit} is {shown} "
+        f"(TOST {is_p(p)}, {'after Holm' if corrected else 'not corrected'}; 90% interval "
+        f"{interval(found.low, found.high)} {c.unit}){why if confounded else ''}.{notes}"
     )
 
 

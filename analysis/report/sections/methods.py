@@ -43,6 +43,10 @@ def _design(results: StudyResults) -> Iterator[str]:
     groups = protocol.groups
     between = f", {len(groups)} groups of participants ({', '.join(groups)})" if groups else ""
     yield f"Within-subject design{between}; protocol {protocol.name!r} on course {course!r}{seed}."
+    yield from (
+        f"Group {name!r} drove course {other.name!r}."
+        for name, other in study.header.group_courses.items()
+    )
     yield from _orders(results.frames)
     if results.frames.practised:
         yield "Practice laps were not analysed."

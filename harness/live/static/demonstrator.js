@@ -15,6 +15,7 @@ const net = link("demonstrator", {
     lobby();
   },
   lobby,
+  course: (message) => { leave(); welcome.course = message.course; },
   driving: () => {},
   page: (message) => net.send({ type: "answer", request: message.request, entered: {} }),
   picture: (picture) => { if (!stage) enter(); motion.put(picture); stage.last = performance.now(); },

@@ -35,7 +35,7 @@ function update(message) {
   if (message.outlook) outlook(message.outlook);
   for (const session of message.sessions) {
     if (!cards.has(session.participant)) {
-      const card = makeCard(session.participant, welcome.course,
+      const card = makeCard(session.participant, welcome.courses[session.group] || welcome.course,
         (what, text) => net.send({ type: "order", do: what, participant: session.participant, text }));
       cards.set(session.participant, card);
       document.getElementById("console").append(card.root);

@@ -7,6 +7,9 @@ import pandas as pd
 import pytest
 from scipy import stats as scipy_stats
 
+from analysis.frames import study_frames
+from analysis.groups import group_model
+from analysis.stats.carry_over import carry_over
 from analysis.stats.cronbach_alpha import cronbach_alpha
 from analysis.stats.effect_size import cohen_dz, rank_biserial
 from analysis.stats.holm import holm
@@ -15,6 +18,7 @@ from analysis.stats.mean_difference import mean_difference
 from analysis.stats.mixed_model import lap_time_model
 from analysis.stats.proportional_odds import proportional_odds
 from analysis.stats.random_intercept import fit_random_intercept
+from analysis.stats.rank_sum import rank_sum
 from analysis.stats.ratio import mean_of_ratios, ratio_of_means
 from analysis.stats.signed_rank import _normal_p, signed_rank, signed_ranks
 from analysis.stats.tost import paired_tost
@@ -134,7 +138,35 @@ def test_mixed_model_in_a_fixed_order():
         assert "not identified" in found.method
 
 
+def test_mixed_model_in_turned_orders():
+    """lme4::lmer with a straight line through the places, two laps missing."""
+    laps = pd.read_csv(R / "laps_turned.csv")
+    line = (laps["lap"] - laps["lap"].mean()).to_numpy()
+    names = ("baseline", "human", "model")
+    matrix = np.column_stack([np.ones(len(laps)), *(at(laps, "condition", n) for n in names), line])
+    fit = fit_random_intercept(np.log(laps["lap_time_s"]), matrix, laps["participant"])
+    for i, name in enumerate(names, start=1):
+        assert fit.effects[i] == r_optimum(f"lmer.turned.{name}")
+        assert np.sqrt(fit.covariance[i, i]) == r_optimum(f"lmer.turned.{name}.se")
+
+
+def test_spreads_of_the_mixed_model():
+    """lme4's standard deviations between people and of the residual, in the fixed order."""
+    laps = pd.read_csv(R / "laps.csv")
+    names = ("baseline", "human", "model")
+    matrix = np.column_stack([np.ones(len(laps)), *(at(laps, "condition", n) for n in names)])
+    fit = fit_random_intercept(np.log(laps["lap_time_s"]), matrix, laps["participant"])
+    assert fit.between == r_optimum("lmer.sd_participant")
+    assert fit.within == r_optimum("lmer.sd_residual")
+
+
 MIXED = pd.read_csv(R / "mixed_model.csv", index_col="name")["value"]
+GROUPS = pd.read_csv(R / "groups.csv", index_col="name")["value"]
+
+
+def at(frame, column, value):
+    """Return 1 where a column has a value, 0 elsewhere."""
+    return (frame[column] == value).to_numpy(dtype=float)
 
 
 def mixed_cases():
@@ -144,9 +176,6 @@ def mixed_cases():
     part = groups[groups["condition"] != "baseline"]
     six = pd.read_csv(R / "laps_six_people.csv")
     conditions = ("baseline", "human", "model")
-
-    def at(frame, column, value):
-        return (frame[column] == value).to_numpy(dtype=float)
 
     def columns(frame):
         return {f"condition{c}": at(frame, "condition", c) for c in conditions}
@@ -163,24 +192,33 @@ def mixed_cases():
     }
 
 
+def close_to_r(ending, value):
+    """Return R's value with the tolerance of its kind: degrees of freedom are large numbers."""
+    if ending == "df":
+        return pytest.approx(value, rel=1e-3)
+    return pytest.approx(value, abs=1e-3 if ending == "p" else 1e-4)
+
+
 @pytest.mark.parametrize("case", ["square", "missing", "groups", "between", "six"])
 def test_mixed_model_with_missing_laps_and_groups(case):
-    """lme4's estimates and errors to 1e-4; lmerTest's Kenward-Roger errors, df and p."""
+    """lme4's estimates and errors to 1e-4; lmerTest's Kenward-Roger errors, df and p: each row."""
     frame, columns = mixed_cases()[case]
     matrix = np.column_stack([np.ones(len(frame)), *columns.values()])
     fit = fit_random_intercept(np.log(frame["lap_time_s"]), matrix, frame["participant"])
-    assert fit.between == pytest.approx(MIXED[f"{case}.between"], abs=1e-4)
-    assert fit.within == pytest.approx(MIXED[f"{case}.within"], abs=1e-4)
-    for i, name in enumerate(columns, start=1):
-        weights = np.eye(matrix.shape[1])[i]
-        estimate, error, df = fit.contrast(weights)
-        assert estimate == pytest.approx(MIXED[f"{case}.{name}.estimate"], abs=1e-4)
-        plain = np.sqrt(fit.covariance[i, i])
-        assert plain == pytest.approx(MIXED[f"{case}.{name}.se"], abs=1e-4)
-        assert error == pytest.approx(MIXED[f"{case}.{name}.se_kr"], abs=1e-4)
-        assert df == pytest.approx(MIXED[f"{case}.{name}.df"], rel=1e-3)
-        p = 2 * scipy_stats.t.sf(abs(estimate / error), df)
-        assert p == pytest.approx(MIXED[f"{case}.{name}.p"], abs=1e-3)
+    ours = {f"{case}.between": fit.between, f"{case}.within": fit.within}
+    for i, name in enumerate(["(Intercept)", *columns]):
+        estimate, error, df = fit.contrast(np.eye(matrix.shape[1])[i])
+        ours |= {
+            f"{case}.{name}.estimate": estimate,
+            f"{case}.{name}.se": np.sqrt(fit.covariance[i, i]),
+            f"{case}.{name}.se_kr": error,
+            f"{case}.{name}.df": df,
+            f"{case}.{name}.p": 2 * scipy_stats.t.sf(abs(estimate / error), df),
+        }
+    theirs = {name: value for name, value in MIXED.items() if name.startswith(f"{case}.")}
+    assert set(ours) == set(theirs)
+    for name, value in theirs.items():
+        assert ours[name] == close_to_r(name.rpartition(".")[2], value), name
 
 
 def test_lap_times_with_their_places():
@@ -189,8 +227,69 @@ def test_lap_times_with_their_places():
     for found in lap_time_model(laps, "limited", np.random.default_rng(0)):
         name = f"square.condition{found.name.split()[0]}"
         assert found.estimate == pytest.approx(MIXED[f"{name}.estimate"], abs=1e-4)
+        error = found.estimate / found.statistic
+        assert error == pytest.approx(MIXED[f"{name}.se_kr"], abs=1e-4)
         assert found.p == pytest.approx(MIXED[f"{name}.p"], abs=1e-3)
         assert "condition + place" in found.method
+
+
+def test_groups_as_a_report_compares_them(make_study):
+    """Group x condition by the report's own function is lmerTest's: errors, interval, p."""
+    laps = pd.read_csv(R / "laps_groups.csv")
+    laps["condition"] = laps["condition"].replace(
+        {"human": "human-assisted", "model": "model-assisted"}
+    )
+    laps["log_time"] = np.log(laps["lap_time_s"])
+    found = group_model(study_frames(make_study(participants=2)), laps, "b", "a")
+    names = ["groupb"] + [f"groupb:condition{c}" for c in ("baseline", "human", "model")]
+    assert [f.name.split()[0] for f in found[1:]] == [
+        "baseline",
+        "human-assisted",
+        "model-assisted",
+    ]
+    for ours, name in zip(found, names, strict=True):
+        estimate, error, df = (
+            MIXED[f"groups.{name}.{kind}"] for kind in ("estimate", "se_kr", "df")
+        )
+        half = scipy_stats.t.ppf(0.975, df) * error
+        assert ours.estimate == pytest.approx(estimate, abs=1e-4)
+        assert ours.estimate / ours.statistic == pytest.approx(error, abs=1e-4)
+        assert (ours.low, ours.high) == pytest.approx((estimate - half, estimate + half), abs=5e-4)
+        assert ours.p == pytest.approx(MIXED[f"groups.{name}.p"], abs=1e-3)
+
+
+@pytest.mark.parametrize("case", ["slower", "change"])
+def test_rank_sum_of_two_groups(case):
+    """wilcox.test(exact, conf.int) of people's log times, and of their log ratios."""
+    laps = pd.read_csv(R / "laps_groups.csv")
+    laps["log_time"] = np.log(laps["lap_time_s"])
+    wide = laps.pivot_table(index=["participant", "group"], columns="condition", values="log_time")
+    b = wide.index.get_level_values("group") == "b"
+    values = {"slower": wide["limited"] + 0.3 * b, "change": wide["model"] - wide["limited"]}[case]
+    found = rank_sum(values[b], values[~b])
+    for name in ("statistic", "p", "estimate", "low", "high"):
+        wanted = pytest.approx(GROUPS[f"rank_sum.{case}.{name}"], rel=1e-6, abs=1e-6)
+        assert getattr(found, name) == wanted
+
+
+def test_rank_sum_with_ties(item):
+    """Every choice of who is in the group, enumerated in R."""
+    few = item.iloc[:14]
+    high = few["reference"] > 2
+    found = rank_sum(few["condition"][high], few["condition"][~high])
+    assert found.p == pytest.approx(GROUPS["rank_sum.ties.p"], rel=1e-6)
+
+
+def test_carry_over_in_a_square():
+    """The condition of the lap before in lmerTest, seven laps missing."""
+    found = carry_over(pd.read_csv(R / "laps_square.csv"), "limited")
+    assert {f.name.split()[1] for f in found} == {"baseline", "human", "model"}
+    for ours in found:
+        name = f"carry_over.{ours.name.split()[1]}"
+        assert ours.estimate == pytest.approx(GROUPS[f"{name}.estimate"], abs=1e-4)
+        error = ours.estimate / ours.statistic
+        assert error == pytest.approx(GROUPS[f"{name}.se_kr"], abs=1e-4)
+        assert ours.p == pytest.approx(GROUPS[f"{name}.p"], abs=1e-3)
 
 
 @pytest.mark.parametrize("package", ["polr", "clm"])
