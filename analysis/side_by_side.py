@@ -23,7 +23,8 @@ class SideBySide:
     groups
         What the groups are called, in the order in which they are shown.
     laps
-        Their laps: group, participant, condition, completed, lap_time_s, duration_s.
+        Their laps: group, participant, lap, condition, completed, lap_time_s, duration_s, and
+        ``here``, whether they are of this study and not of the one beside it.
     times
         One row per condition and group: laps, unfinished ones, mean, sd and median lap time.
     answers
@@ -92,7 +93,8 @@ def _grouped(studies: list[StudyFrames], rows: Sequence[pd.DataFrame]) -> pd.Dat
         where = "beside" if place else "this study"
         names = {k: f"{word} ({where})" if k in twice else word for k, word in PEOPLE.items()}
         kind = frames.participants.set_index("participant")["kind"]
-        found.append(own.assign(group=own["participant"].map(kind).map(names)))
+        group = own["participant"].map(kind).map(names)
+        found.append(own.assign(group=group, here=not place))
     return pd.concat(found, ignore_index=True)
 
 

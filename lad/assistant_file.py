@@ -35,6 +35,13 @@ def take_apart(pair: Pair) -> tuple[dict[str, Any], Arrays]:
     ----------
     pair
         The assistant; it is not changed.
+
+    Examples
+    --------
+    >>> from lad.lad_assistant import LADAssistant
+    >>> header, arrays = take_apart(LADAssistant())
+    >>> sorted(header)
+    ['health', 'parameters', 'window']
     """
     window, arrays = window_arrays(pair.when.window)
     for name, process in (("when", pair.when), ("how", pair.how)):
@@ -70,6 +77,19 @@ def restore(pair: Pair, header: dict[str, Any], arrays: Arrays) -> None:
         As it was saved.
     arrays
         As they were saved, by name.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from lad.command import Command
+    >>> from lad.lad_assistant import LADAssistant
+    >>> taught, fresh = LADAssistant(), LADAssistant()
+    >>> taught.start_lap()
+    >>> _ = taught.assist(np.zeros(19))
+    >>> taught.learn(helping=True, command=Command(v=0.2, w=-0.5))
+    >>> restore(fresh, *take_apart(taught))
+    >>> fresh.assist(np.ones(19)) == taught.assist(np.ones(19))
+    True
     """
     if "tuned" in header:
         when, how = (GPHyperparameters.from_header(header["tuned"][n]) for n in ("when", "how"))

@@ -43,6 +43,19 @@ def make_driver(name: str, setup: DriverSetup, code: Code = ()) -> Driver:
     ------
     InputError
         When there is no such driver, or it cannot be made with these options.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from protocols.load import load_course
+    >>> setup = DriverSetup(load_course("lab-office"), np.random.default_rng(0))
+    >>> driver = make_driver("autonomous", setup)
+    >>> kind_of(driver)
+    'synthetic'
+    >>> make_driver("autonomus", setup)  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+        ...
+    protocols.files.errors.InputError: ...
     """
     return _driver("driver", name, setup, code)
 
@@ -64,6 +77,16 @@ def make_impaired(name: str, setup: ImpairmentSetup, code: Code = ()) -> Driver:
     ------
     InputError
         When there is no such impairment, or it cannot be made with these options.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from participants.scripted import ScriptedDriver
+    >>> ahead = ScriptedDriver([(0.0, 0.5, 0.0)])
+    >>> setup = ImpairmentSetup(ahead, severity=0.5, rng=np.random.default_rng(0))
+    >>> driver = make_impaired("tremor", setup)
+    >>> kind_of(driver) == kind_of(ahead)
+    True
     """
     driver = HeardDriver(setup.driver)
     impairment = _driver("impairment", name, replace(setup, driver=driver), code)
@@ -87,6 +110,14 @@ def make_demonstrator(name: str, setup: DemonstratorSetup, code: Code = ()) -> D
     ------
     InputError
         When there is no such demonstrator, or it cannot be made with these options.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from protocols.load import load_course
+    >>> setup = DemonstratorSetup(load_course("lab-office"), np.random.default_rng(0))
+    >>> type(make_demonstrator("attentive", setup)).__name__
+    'AttentiveDemonstrator'
     """
     methods = ("start_lap", "look", "assist")
     return cast("Demonstrator", _make("demonstrator", methods, name, setup, code))

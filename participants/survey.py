@@ -117,6 +117,11 @@ def response_times_of(respondent: Any) -> tuple[float | None, ...] | None:
     ----------
     respondent
         Who has answered, living or simulated.
+
+    Examples
+    --------
+    >>> response_times_of(object()) is None  # a simulated one
+    True
     """
     times = getattr(respondent, "response_times", None)
     return None if times is None else times()

@@ -85,6 +85,14 @@ def moved_conditions(orders: Orders, laps: Sequence[PlannedLap]) -> Order:
         The design.
     laps
         As the protocol has them.
+
+    Examples
+    --------
+    >>> laps = [PlannedLap(condition="a", practice=True), *(PlannedLap(condition=c) for c in "abc")]
+    >>> moved_conditions(Orders(use="williams"), laps)
+    ('a', 'b', 'c')
+    >>> moved_conditions(Orders(use="williams", over=("c", "b")), laps)
+    ('b', 'c')
     """
     analysed = tuple(dict.fromkeys(lap.condition for lap in laps if not lap.practice))
     return tuple(c for c in analysed if not orders.over or c in orders.over)
@@ -187,6 +195,18 @@ def untaught(
         By name.
     taught
         Whether the model may have been taught before the study.
+
+    Examples
+    --------
+    >>> laps = [PlannedLap(condition=c) for c in ("helped", "taught")]
+    >>> conditions = {
+    ...     "taught": Condition(assistant="demonstrator", training=True),
+    ...     "helped": Condition(assistant="model"),
+    ... }
+    >>> untaught(laps, conditions, taught=False)
+    'helped'
+    >>> untaught(laps[::-1], conditions, taught=False) is None
+    True
     """
     for lap in laps:
         condition = conditions.get(lap.condition)
@@ -237,6 +257,17 @@ def legal_orders(
         By name.
     taught
         Whether the model may have been taught before the study.
+
+    Examples
+    --------
+    >>> laps = [PlannedLap(condition=c) for c in ("alone", "taught", "helped")]
+    >>> conditions = {
+    ...     "alone": Condition(),
+    ...     "taught": Condition(assistant="demonstrator", training=True),
+    ...     "helped": Condition(assistant="model"),
+    ... }
+    >>> legal_orders(Orders(use="latin"), laps, conditions, taught=False)
+    (('alone', 'taught', 'helped'), ('taught', 'helped', 'alone'))
     """
     wanted = moved_conditions(orders, laps)
     return tuple(
@@ -256,6 +287,12 @@ def order_faults(orders: Orders, laps: Sequence[PlannedLap]) -> Iterator[Fault]:
         The design.
     laps
         As the protocol has them.
+
+    Examples
+    --------
+    >>> laps = [PlannedLap(condition=c) for c in ("alone", "helped")]
+    >>> [fault.message for fault in order_faults(Orders(use="latin", over=("alone",)), laps)]
+    ['no latin orders of 1 condition; allowed: 2 or more']
     """
     analysed = [lap.condition for lap in laps if not lap.practice]
     known = dict.fromkeys(analysed)

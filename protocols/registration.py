@@ -141,6 +141,17 @@ def write_registration(study: ResolvedStudy, folder: Path, reason: str = "") -> 
     InputError
         When the folder holds something else, a changed registration, the same plan, or a plan
         would be amended without a reason.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from protocols.load import resolve_study
+    >>> study = resolve_study("four-lap")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     gaps = write_registration(study, Path(folder))
+    ...     files = sorted(path.name for path in Path(folder).iterdir())
+    >>> files
+    ['plan.json', 'protocol.yaml', 'registration.md', 'registration.yaml']
     """
     earlier = _earlier(folder)
     content = _canonical(plan_of(study))
@@ -194,6 +205,21 @@ def read_registration(folder: Path) -> Registration:
     ------
     InputError
         When there is none, or a byte of a plan has changed since it was frozen.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from protocols.load import resolve_study
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = write_registration(resolve_study("four-lap"), Path(folder))
+    ...     plan = read_registration(Path(folder))
+    ...     _ = Path(folder, PLAN_FILE).write_text("{}")
+    ...     read_registration(Path(folder))  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+        ...
+    protocols.files.errors.InputError: ...: changed since it was registered (its digest differs)
+    >>> plan.participants, len(plan.digest)
+    (12, 64)
     """
     amended = sorted((folder / AMENDMENTS).glob("[0-9][0-9][0-9]"))
     heads: list[Head] = []
@@ -238,6 +264,17 @@ def plan_study(registration: Registration, number: int) -> ResolvedStudy:
         The plan that came first, and its amendments.
     number
         0 for the first plan, else the amendment of that number.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from protocols.load import resolve_study
+    >>> study = resolve_study("four-lap")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = write_registration(study, Path(folder))
+    ...     plan = read_registration(Path(folder))
+    >>> plan_study(plan, 0).protocol.cohort.participants
+    12
     """
     content = registration.plans[number]["study"]
     protocol = registration.protocols[number]
@@ -270,6 +307,21 @@ def registered(study: ResolvedStudy, registration: Registration) -> ResolvedStud
     ------
     InputError
         When the registration is of another plan: in one line, the first difference.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from protocols.load import resolve_study
+    >>> study = resolve_study("four-lap")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = write_registration(study, Path(folder))
+    ...     plan = read_registration(Path(folder))
+    >>> registered(study, plan).protocol.registration == plan.digest
+    True
+    >>> registered(resolve_study("four-lap", participants=24), plan)  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+        ...
+    protocols.files.errors.InputError: ...: registers another plan: participants: ...
     """
     faults = tuple(plan_differences(study, registration))
     if faults:
@@ -291,6 +343,16 @@ def plan_differences(study: ResolvedStudy, registration: Registration) -> Iterat
         The study as it is going to be run.
     registration
         The plan to compare with: its last amendment.
+
+    Examples
+    --------
+    >>> from protocols.load import resolve_study
+    >>> study = resolve_study("four-lap")
+    >>> plan = Registration(Path("plan"), (), (plan_of(study),), (study.protocol,))
+    >>> list(plan_differences(resolve_study("four-lap", participants=6), plan))
+    []
+    >>> list(plan_differences(resolve_study("four-lap", participants=24), plan))
+    ['participants: the study stops at 12, 24 wanted']
     """
     mine = plan_of(study)
     yield from identity_differences(registration.plan["study"], mine["study"])
@@ -310,6 +372,16 @@ def copy_registration(registration: Registration, study_folder: Path) -> None:
         As it was read and verified.
     study_folder
         The study directory.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from protocols.load import resolve_study
+    >>> with tempfile.TemporaryDirectory() as place:
+    ...     _ = write_registration(resolve_study("four-lap"), Path(place, "plan"))
+    ...     copy_registration(read_registration(Path(place, "plan")), Path(place, "study"))
+    ...     read_registration(Path(place, "study", REGISTRATION)).participants
+    12
     """
     for source in sorted(registration.folder.rglob("*")):
         if source.is_file():
@@ -327,6 +399,12 @@ def registration_faults(folder: Path, study: ResolvedStudy) -> Iterator[str]:
         The study directory.
     study
         What its ``study.yaml`` says.
+
+    Examples
+    --------
+    >>> from protocols.load import resolve_study
+    >>> list(registration_faults(Path("study"), resolve_study("four-lap")))  # it follows none
+    []
     """
     digest = study.protocol.registration
     if digest is None:

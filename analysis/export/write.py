@@ -67,6 +67,16 @@ def new_folder(target: Path) -> Iterator[Path]:
     ------
     InputError
         When the target exists or cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as place:
+    ...     with new_folder(Path(place, "out")) as folder:
+    ...         _ = (folder / "laps.csv").write_text("lap")
+    ...     files = sorted(path.name for path in Path(place, "out").iterdir())
+    >>> files
+    ['laps.csv']
     """
     if target.exists() and not (target.is_dir() and not any(target.iterdir())):
         raise InputError(f"{target}: is there already; allowed: a new folder")

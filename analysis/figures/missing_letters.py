@@ -5,12 +5,17 @@ from collections.abc import Iterable
 from functools import cache
 
 import matplotlib.font_manager as fonts
+from matplotlib import ft2font
 from matplotlib.figure import Figure
 from matplotlib.ft2font import FT2Font
 from matplotlib.text import Text
 
 _JOINED = ("ARABIC", "SYRIAC", "DEVANAGARI", "BENGALI", "TAMIL", "THAI", "KHMER", "MYANMAR")
-"""Scripts whose letters change with their neighbours, which the figures' drawing does not do."""
+"""Scripts whose letters change with their neighbours."""
+
+_JOINS = hasattr(ft2font, "__libraqm_version__")
+"""Whether the figures' drawing joins such letters, and writes from right to left: from matplotlib
+3.11 on."""
 
 
 def missing_scripts(texts: Iterable[str]) -> tuple[str, ...]:
@@ -25,13 +30,14 @@ def missing_scripts(texts: Iterable[str]) -> tuple[str, ...]:
     --------
     >>> missing_scripts(["Pauline's 5 µm — fine"])
     ()
-    >>> missing_scripts(["很好", "مرحبا"])
-    ('Arabic', 'CJK')
+    >>> missing_scripts(["很好", "ดี"])
+    ('CJK', 'Thai')
     """
     found = set()
     for character in set("".join(texts)):
         script = script_of(character)
-        if script and (ord(character) not in _letters() or script.upper() in _JOINED):
+        joined = script.upper() in _JOINED and not _JOINS
+        if script and (joined or ord(character) not in _letters()):
             found.add(script)
     return tuple(sorted(found))
 

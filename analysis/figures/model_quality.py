@@ -14,6 +14,9 @@ from analysis.roles import Part
 _ROOM, _CONDITION = 2.2, 0.8
 """Least width of the strips, and what each condition takes of it with its median, inches."""
 
+_SPREAD = 0.18
+"""How far a condition's points stand to each side of its middle; 1 is the next condition."""
+
 _LEGEND = 4
 """Conditions whose names have a place inside the reliability diagram."""
 
@@ -32,7 +35,7 @@ def model_figure(
     parts
         The study's conditions; those with a model's predictions are drawn.
     """
-    known = measures.dropna(subset=["when_auc"])
+    known = auc_points(measures, parts)
     shown = [part for part in parts if part.condition in set(known["condition"])]
     if not shown:
         return say_nothing_to_show(
@@ -54,13 +57,37 @@ def model_figure(
     return figure
 
 
+def auc_points(measures: pd.DataFrame, parts: Sequence[Part]) -> pd.DataFrame:
+    """Return the laps that have an AUC, with ``x``: where each one's point stands.
+
+    Parameters
+    ----------
+    measures, parts
+        As for ``model_figure``.
+
+    Examples
+    --------
+    >>> laps = pd.DataFrame({"condition": ["a", "b", "b"], "when_auc": [1.0, 0.9, 0.8]})
+    >>> auc_points(laps, [Part("a", "model", 1), Part("b", "model", 1)])["x"].round(2).tolist()
+    [0.0, 0.82, 1.18]
+    """
+    known = measures.dropna(subset=["when_auc"])
+    shown = [part.condition for part in parts if part.condition in set(known["condition"])]
+    known = known[known["condition"].isin(shown)]
+    place = known["condition"].map(shown.index).astype("float64")
+    group = known.groupby("condition", sort=False)["when_auc"]
+    others = group.transform("size") - 1
+    share = (group.cumcount() / others.where(others > 0)).fillna(0.5)
+    return known.assign(x=place + 2 * _SPREAD * (share - 0.5))
+
+
 def _strips(
     axes: Axes, known: pd.DataFrame, parts: Sequence[Part], shades: dict[str, str], room: float
 ) -> None:
     for at, part in enumerate(parts):
-        auc = known.loc[known["condition"] == part.condition, "when_auc"].to_numpy()
-        spread = np.linspace(-0.18, 0.18, len(auc)) if len(auc) > 1 else np.zeros(1)
-        axes.scatter(at + spread, auc, s=16, color=shades[part.condition], alpha=0.7)
+        own = known[known["condition"] == part.condition]
+        auc = own["when_auc"].to_numpy()
+        axes.scatter(own["x"], auc, s=16, color=shades[part.condition], alpha=0.7)
         axes.hlines(np.median(auc), at - 0.28, at + 0.28, color=BLACK, linewidth=2)
         axes.annotate(f"{np.median(auc):.3f}", (at + 0.3, float(np.median(auc))), fontsize=9,
                       va="center")  # fmt: skip

@@ -37,11 +37,11 @@ def times_figure(laps: pd.DataFrame, conditions: Sequence[str], groups: Sequence
     width = max(WIDTH, 0.55 * len(conditions) * len(groups) + 1.2)
     figure = new_figure(4.0, width)
     axes = figure.subplots()
-    spread = np.linspace(-0.5, 0.5, 2 * len(groups) + 1)[1::2] * 0.8
+    points = time_points(laps, conditions, groups)
     for k, group in enumerate(groups):
-        for at, condition in enumerate(conditions):
-            own = laps[(laps["group"] == group) & (laps["condition"] == condition)]
-            _column(axes, own, at + spread[k], k)
+        for condition in conditions:
+            own = points[(points["group"] == group) & (points["condition"] == condition)]
+            _column(axes, own, k)
         axes.errorbar([], [], yerr=[], fmt=MARKERS[k % 4], color=SHADES[k % 4], capsize=3,
                       markeredgecolor=BLACK, label=f"{group}: mean and sd")  # fmt: skip
     axes.scatter([], [], marker="x", color=VERMILLION, s=30, label="unfinished, when it ended")
@@ -54,16 +54,39 @@ def times_figure(laps: pd.DataFrame, conditions: Sequence[str], groups: Sequence
     return figure
 
 
-def _column(axes: Axes, laps: pd.DataFrame, at: float, k: int) -> None:
-    times = laps["lap_time_s"].dropna().to_numpy(float)
-    jitter = np.linspace(-0.06, 0.06, len(times)) if len(times) > 1 else np.zeros(len(times))
-    axes.scatter(at - 0.06 + jitter, times, s=14, color=SHADES[k % 4], alpha=0.5, linewidths=0)
-    if len(times):
-        sd = float(times.std(ddof=1)) if len(times) > 1 else 0.0
-        axes.errorbar(at + 0.06, times.mean(), yerr=sd, fmt=MARKERS[k % 4], color=SHADES[k % 4],
-                      capsize=3, markersize=7, markeredgecolor=BLACK, zorder=4)  # fmt: skip
-    cut = pd.to_numeric(laps.loc[~laps["completed"].astype(bool), "duration_s"]).dropna()
-    axes.scatter(np.full(len(cut), at - 0.06), cut, marker="x", color=VERMILLION, s=30, zorder=5)
+def time_points(
+    laps: pd.DataFrame, conditions: Sequence[str], groups: Sequence[str]
+) -> pd.DataFrame:
+    """Return the laps that have a point, with ``x`` and ``y``: where it stands; ``at``: its column.
+
+    Parameters
+    ----------
+    laps, conditions, groups
+        As for ``times_figure``.
+    """
+    finished = laps["completed"].astype(bool)
+    y = pd.to_numeric(laps["lap_time_s"].where(finished, laps["duration_s"]), errors="coerce")
+    points = laps.assign(y=y, finished=finished)[y.notna()]
+    spread = np.linspace(-0.5, 0.5, 2 * len(groups) + 1)[1::2] * 0.8
+    places = {(c, g): i + spread[k] for i, c in enumerate(conditions) for k, g in enumerate(groups)}
+    columns = list(zip(points["condition"], points["group"], strict=True))
+    points = points.assign(at=[places.get(column, np.nan) for column in columns])
+    column = points.groupby(["condition", "group", "finished"], sort=False)["y"]
+    others = column.transform("size") - 1
+    share = (column.cumcount() / others.where(others > 0)).fillna(0.5)
+    jitter = (0.12 * (share - 0.5)).where(points["finished"], 0.0)
+    return points.assign(x=points["at"] - 0.06 + jitter).dropna(subset=["at"])
+
+
+def _column(axes: Axes, points: pd.DataFrame, k: int) -> None:
+    done, cut = points[points["finished"]], points[~points["finished"]]
+    axes.scatter(done["x"], done["y"], s=14, color=SHADES[k % 4], alpha=0.5, linewidths=0)
+    axes.scatter(cut["x"], cut["y"], marker="x", color=VERMILLION, s=30, zorder=5)
+    if len(done):
+        sd = float(done["y"].std(ddof=1)) if len(done) > 1 else 0.0
+        axes.errorbar(done["at"].iloc[0] + 0.06, done["y"].mean(), yerr=sd, fmt=MARKERS[k % 4],
+                      color=SHADES[k % 4], capsize=3, markersize=7, markeredgecolor=BLACK,
+                      zorder=4)  # fmt: skip
 
 
 def answers_figure(answers: pd.DataFrame, groups: Sequence[str]) -> Figure:

@@ -104,6 +104,16 @@ def replace_folder(target: Path, contents: dict[str, bytes]) -> None:
     ------
     OSError
         When it cannot be written; the old folder is still there then.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     for name in ("old", "new"):
+    ...         replace_folder(Path(folder, "report"), {f"tables/{name}.csv": b"n"})
+    ...     left = [path.name for path in Path(folder, "report").rglob("*.csv")]
+    >>> left
+    ['new.csv']
     """
     partial = partial_beside(target)
     aside = partial_beside(target.with_name(f"old-{target.name}"))

@@ -53,6 +53,17 @@ def lap_time_design(laps: pd.DataFrame, reference: str) -> Design:
         participant's analysed laps).
     reference
         The condition the others are set against.
+
+    Examples
+    --------
+    >>> laps = pd.DataFrame(
+    ...     {"participant": ["P1", "P1", "P2", "P2"], "condition": ["a", "b", "a", "b"]}
+    ... )
+    >>> lap_time_design(laps.assign(place=[0, 1, 0, 1]), "a").with_place  # b is always second
+    False
+    >>> design = lap_time_design(laps.assign(place=[0, 1, 1, 0]), "a")
+    >>> design.contrasts, design.with_place, design.matrix.shape
+    (('b',), True, (4, 3))
     """
     conditions = [c for c in dict.fromkeys(laps["condition"]) if c != reference]
     columns = [np.ones(len(laps)), *(indicator(laps["condition"], c) for c in conditions)]
@@ -96,6 +107,17 @@ def inflation(
         Shape (laps, more columns): the same columns, and more.
     participants
         Who drove each lap.
+
+    Examples
+    --------
+    >>> contrast = np.array([[1.0, 0.0], [1.0, 1.0], [1.0, 0.0], [1.0, 1.0]])
+    >>> people = pd.Series(["P1", "P1", "P2", "P2"])
+    >>> balanced = np.column_stack([contrast, [0.0, 1.0, 1.0, 0.0]])  # the lap was second
+    >>> inflation(contrast, balanced, people)
+    1.0
+    >>> fixed = np.column_stack([contrast, [0.0, 1.0, 0.0, 1.0]])
+    >>> inflation(contrast, fixed, people)
+    inf
     """
     if wider.shape == matrix.shape or matrix.shape[1] < 2:
         return math.inf
@@ -164,6 +186,20 @@ def lap_time_model(
     ----------
     Laird & Ware (1982), Biometrics 38(4), 963-974; Kenward & Roger (1997), Biometrics 53(3),
     983-997.
+
+    Examples
+    --------
+    >>> laps = pd.DataFrame(
+    ...     {
+    ...         "participant": [who for who in ("P1", "P2", "P3", "P4") for _ in "ab"],
+    ...         "condition": ["limited", "helped"] * 4,
+    ...         "place": [0, 1, 1, 0, 0, 1, 1, 0],
+    ...         "lap_time_s": [80.0, 60.0, 90.0, 65.0, 70.0, 55.0, 84.0, 60.0],
+    ...     }
+    ... )
+    >>> (found,) = lap_time_model(laps, "limited", np.random.default_rng(0))
+    >>> found.name, f"{np.exp(found.estimate):.2f} times the time", found.n
+    ('helped against limited', '0.74 times the time', 4)
     """
     timed = laps.dropna(subset=["lap_time_s"])
     timed = timed.assign(log_time=np.log(timed["lap_time_s"].to_numpy(dtype=np.float64)))
@@ -245,6 +281,15 @@ def model_result(
         Confidence level.
     formula
         The fixed effects in words, for the method.
+
+    Examples
+    --------
+    >>> times = np.log([80.0, 60.0, 90.0, 65.0, 70.0, 55.0])
+    >>> helped = np.column_stack([np.ones(6), [0.0, 1.0] * 3])
+    >>> fit = fit_random_intercept(times, helped, ["P1", "P1", "P2", "P2", "P3", "P3"])
+    >>> found = model_result(fit, np.array([0.0, 1.0]), n=3, level=0.95, formula="condition")
+    >>> f"{np.exp(found.estimate):.2f}", found.statistic_name, found.p < 0.05
+    ('0.75', 't', True)
     """
     estimate, error, df = fit.contrast(weights)
     half = float(stats.t.ppf((1 + level) / 2, df)) * error

@@ -94,6 +94,11 @@ def rank_sum_ways(weights: NDArray[np.int64], size: int) -> NDArray[np.float64]:
     -------
     NDArray
         By sum, from 0 on.
+
+    Examples
+    --------
+    >>> rank_sum_ways(np.array([1, 2, 3]), 2)[3:6]  # 1 + 2, 1 + 3, 2 + 3
+    array([0.33333333, 0.33333333, 0.33333333])
     """
     ways = np.zeros((size + 1, int(weights.sum()) + 1))
     ways[0, 0] = 1.0

@@ -88,6 +88,23 @@ def run_study(
         another study; nothing is changed then.
     OSError
         When something cannot be written, or there is no worker; what was finished is kept.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from protocols.load import resolve_study
+    >>> from protocols.record.check import check_study
+    >>> from protocols.record.reader import open_study
+    >>> work = tempfile.TemporaryDirectory()
+    >>> protocol, out = Path(work.name, "brief.yaml"), Path(work.name, "study")
+    >>> _ = protocol.write_text(
+    ...     "{schema: 1, name: brief, title: Two seconds, conditions: {free: {}}, "
+    ...     "laps: [{condition: free, time_limit_s: 2}], cohort: {participants: 1}}"
+    ... )
+    >>> outcome = run_study(StudyRun(resolve_study(str(protocol)), seed=0), out, jobs=1)
+    >>> outcome.failed, check_study(out), open_study(out).laps.num_rows
+    ((), (), 1)
+    >>> work.cleanup()
     """
     run = portable(run)
     header = refuse_another_study(out, run.study, run.seed)

@@ -80,6 +80,13 @@ def portable(run: StudyRun) -> StudyRun:
     ------
     InputError
         When such a file cannot be used.
+
+    Examples
+    --------
+    >>> from protocols.load import resolve_study
+    >>> run = StudyRun(resolve_study("four-lap"), seed=0)
+    >>> portable(run).study.protocol == run.study.protocol  # its driver's options name no file
+    True
     """
     study = run.study
     folder = (study.folder or Path()).resolve()

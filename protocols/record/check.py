@@ -64,6 +64,13 @@ def check_study(folder: Path, tell: Tell | None = None) -> tuple[str, ...]:
     ------
     InputError
         When the folder is no study directory at all.
+
+    Examples
+    --------
+    >>> check_study(Path("nowhere"))  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+        ...
+    protocols.files.errors.InputError: nowhere...
     """
     header = read_header(folder)
     if header.origin == "elsewhere":

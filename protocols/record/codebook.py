@@ -32,7 +32,13 @@ def codebook() -> dict[str, Any]:
 
 
 def codebook_json() -> str:
-    """Return the codebook as the text of ``codebook.json``."""
+    """Return the codebook as the text of ``codebook.json``.
+
+    Examples
+    --------
+    >>> json.loads(codebook_json()) == codebook()
+    True
+    """
     return json.dumps(codebook(), indent=1, ensure_ascii=False) + "\n"
 
 

@@ -1,12 +1,13 @@
 """Lap times by condition, and speedups."""
 
-import math
 from typing import Any
-from urllib.parse import quote
+
+import pandas as pd
 
 from analysis.figures.lap_times import lap_time_figure
-from analysis.lap_pages.study_page import STUDY_PAGE, held_laps
-from analysis.report.blocks import Picture, Section, Shown, Spot, table
+from analysis.lap_pages.study_page import analysed_laps
+from analysis.report.blocks import Picture, Section, Shown, table
+from analysis.report.lap_links import lap_spots
 from analysis.report.numbers import count, interval, number, percent
 from analysis.results import StudyResults
 from analysis.tables.comparisons import speedup_table
@@ -37,7 +38,7 @@ def lap_time_section(results: StudyResults) -> Section:
                 f"{figure_6}.",
                 f"Lap times by condition: {said}.",
                 lap_time_figure(frames.laps, frames.parts, paper),
-                _spots(results),
+                lap_spots(results, _points(results)),
             ),
             table("lap_times", "Lap times of finished laps, in seconds. Unfinished laps and laps "
                   "that were not driven are counted, not averaged.",
@@ -51,19 +52,14 @@ def lap_time_section(results: StudyResults) -> Section:
     )  # fmt: skip
 
 
-def _spots(results: StudyResults) -> tuple[Spot, ...]:
-    """Return for every lap that the study's page holds where its point is in the figure."""
+def _points(results: StudyResults) -> pd.DataFrame:
+    """Return where every lap's point is in the figure; see ``lap_spots``."""
     at = {part.condition: i for i, part in enumerate(results.frames.parts)}
-    return tuple(
-        Spot(
-            at[one.condition],
-            one.time_s,
-            f"{STUDY_PAGE}#{quote(one.key)}",
-            f"{one.participant}, lap {one.lap}: {one.condition}, {number(one.time_s)} s",
-        )
-        for one in held_laps(results)
-        if math.isfinite(one.time_s)
-    )
+    rows = [
+        (one.participant, one.lap, at[one.condition], one.time_s, f"{number(one.time_s)} s")
+        for one in analysed_laps(results)
+    ]
+    return pd.DataFrame(rows, columns=["participant", "lap", "x", "y", "value"])
 
 
 _THEIRS = (" (the paper's Figure 6)", " (the paper's 137%)")

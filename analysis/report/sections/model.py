@@ -5,8 +5,9 @@ from typing import Any
 
 import pandas as pd
 
-from analysis.figures.model_quality import model_figure
+from analysis.figures.model_quality import auc_points, model_figure
 from analysis.report.blocks import Block, Picture, Section, Shown, table
+from analysis.report.lap_links import lap_spots
 from analysis.report.numbers import count, number
 from analysis.results import StudyResults
 
@@ -25,6 +26,10 @@ def model_section(results: StudyResults) -> Section:
         for condition, row in auc.iterrows()
         if row["count"]
     )
+    points = auc_points(measures, taught)
+    points = points.assign(
+        y=points["when_auc"], value=[f"AUC {number(auc, 3)}" for auc in points["when_auc"]]
+    )
     return Section(
         "model",
         "Model quality",
@@ -39,6 +44,7 @@ def model_section(results: StudyResults) -> Section:
                 "demonstration are left out: there the model has learnt nothing.",
                 f"Model quality: {aucs or 'nothing to compare'}.",
                 model_figure(measures, reliability, taught),
+                lap_spots(results, points),
             ),
             table("reliability", "Reliability of p(h = 1 | x), pooled over the steps of all laps.",
                   reliability, _COLUMNS, folded=True),

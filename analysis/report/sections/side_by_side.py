@@ -1,7 +1,12 @@
 """Living and synthetic people beside each other."""
 
-from analysis.figures.side_by_side import answers_figure, times_figure
+from collections.abc import Sequence
+
+import pandas as pd
+
+from analysis.figures.side_by_side import answers_figure, time_points, times_figure
 from analysis.report.blocks import Block, Caution, Paragraph, Picture, Section, Shown, table
+from analysis.report.lap_links import lap_spots
 from analysis.report.numbers import count, number, percent
 from analysis.results import StudyResults
 from analysis.side_by_side import SideBySide
@@ -23,6 +28,7 @@ def side_section(results: StudyResults) -> Section | None:
             "Lap times by condition and kind of people.",
             f"Lap times side by side. {_in_words(found)}",
             times_figure(found.laps, conditions, found.groups),
+            lap_spots(results, _points(found, conditions)),
         ),
         table("side_by_side", "Lap times of finished laps, s.", found.times, _TIMES),
     ]
@@ -47,6 +53,13 @@ def _about(found: SideBySide) -> str:
         "assumed, not observed: where they differ from living ones, the assumptions are wrong. No "
         "test is made."
     )
+
+
+def _points(found: SideBySide, conditions: Sequence[str]) -> pd.DataFrame:
+    """Return where the points of this study's own laps are in the figure; see ``lap_spots``."""
+    points = time_points(found.laps, conditions, found.groups)
+    points = points[points["here"]]
+    return points.assign(value=[f"{number(time)} s" for time in points["y"]])
 
 
 def _in_words(found: SideBySide) -> str:
