@@ -45,6 +45,8 @@ def lap_clock(t: NDArray[np.float64], lasted: Sequence[float]) -> Clock:
     """
     known = t[np.isfinite(t)]
     if len(known) < 2 or not (np.diff(known) > 0).any():
+        if len(known) and abs(float(known[0])) > _LONGEST:  # a stamp, and nothing to bring it to
+            return Clock(np.full(len(t), np.nan), (_contradiction(()),))
         return Clock(t, ())
     ends = float(known[0]), float(known[-1])
     step = float(np.median(np.diff(known)))
