@@ -20,6 +20,7 @@ tests: $(VENV)/installed-test
 test-long: $(VENV)/installed-test  ## Run the tests that take minutes, and every test with the lowest versions
 	$(BIN)/python -m pytest -m slow $(ALL_CORES) --hypothesis-seed 0
 	.ci/lowest
+	.ci/rocrate
 	$(MAKE) docs
 
 check: $(VENV)/installed-test

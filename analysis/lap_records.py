@@ -185,7 +185,7 @@ def _read(study: Study, places: Sequence[_Where]) -> _Piece:
             laps.append(_Lap(row, damaged=within(study, error)))
             continue
         if not len(steps):
-            laps.append(_Lap(row))
+            laps.append(_Lap(row, gaps=remarks))
             continue
         unrecorded = [name for name in unrecorded if steps[name].isna().all()]
         with at_hand(steps):

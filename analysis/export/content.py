@@ -1,5 +1,6 @@
 """What of a study is exported: its tables without what could tell who took part."""
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -10,8 +11,22 @@ import pyarrow.compute as pc
 
 from analysis.export.field import Field, field_of
 from analysis.export.file_labels import file_labels
-from analysis.export.privacy import INCLUDES, minimised, unique_people
-from analysis.export.sharing import Licence, check_sharing, has_living, licence_of, may_be_shared
+from analysis.export.known import WRITTEN, known_words, of_the_study
+from analysis.export.privacy import (
+    INCLUDES,
+    exported_ids,
+    minimised,
+    only_known,
+    unique_people,
+)
+from analysis.export.sharing import (
+    SYNTHETIC,
+    Licence,
+    check_sharing,
+    has_living,
+    licence_of,
+    may_be_shared,
+)
 from lad.inputs import N_SEGMENTS
 from protocols.files.errors import InputError
 from protocols.record.column import Column
@@ -20,6 +35,8 @@ from protocols.record.steps import STEP_COLUMNS
 from protocols.record.tables import LAP_COLUMNS, PARTICIPANT_COLUMNS, SURVEY_COLUMNS
 
 _F = pa.float64()
+
+_PLAIN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,79}")
 
 _ITEM_COLUMNS = (
     Column("instrument", pa.string(), "Instrument as the protocol names it"),
@@ -80,11 +97,19 @@ class Content:
         return has_living(self.study)
 
     @cached_property
-    def people(self) -> tuple[str, ...]:
-        """Participants whose consent covers it, sorted."""
+    def ids(self) -> dict[str, str]:
+        """Ids as exported, by recorded ids, of the participants whose consent covers it."""
         table = self.study.participants
-        kept = table.filter(may_be_shared(table, living=self.living))
-        return tuple(sorted(kept["participant"].to_pylist()))
+        kept = table.filter(may_be_shared(self.study, living=self.living))
+        recorded: list[str] = kept["participant"].to_pylist()
+        if "ids" in self.include:
+            return {name: name for name in recorded}
+        return exported_ids(recorded)
+
+    @cached_property
+    def people(self) -> tuple[str, ...]:
+        """Participants whose consent covers it, as exported, sorted."""
+        return tuple(sorted(self.ids.values()))
 
     @cached_property
     def labels(self) -> dict[str, str]:
@@ -141,10 +166,19 @@ class Content:
 
     def laps_with_steps(self) -> Iterator[LapSteps]:
         """Yield every lap whose steps were recorded, in the order of participants and laps."""
+        recorded = {exported: name for name, exported in self.ids.items()}
         for part in self.laps.rows.to_batches(max_chunksize=100):
             for lap in part.to_pylist():
-                if self.study.has_steps(lap["participant"], lap["lap"]):
-                    yield LapSteps(lap, self._steps(lap["participant"], lap["lap"]))
+                if self.study.has_steps(recorded[lap["participant"]], lap["lap"]):
+                    yield LapSteps(lap, self._steps(recorded[lap["participant"]], lap["lap"]))
+
+    @cached_property
+    def _known_words(self) -> dict[str, frozenset[str]]:
+        """Words that columns may hold: another program's may hold anything."""
+        if not self.study.elsewhere:
+            return {}
+        kept = WRITTEN if "words" in self.include else frozenset[str]()
+        return {name: w for name, w in known_words(self.study).items() if name not in kept}
 
     @cached_property
     def unique_people(self) -> int:
@@ -153,15 +187,21 @@ class Content:
 
     def _steps(self, participant: str, lap: int) -> pa.Table:
         table = self.study.steps(participant, lap).select([c.name for c in STEP_COLUMNS])
-        count = len(table)
-        keys = (pa.repeat(participant, count), pa.repeat(pa.scalar(lap, pa.int16()), count))
+        table, count = only_known(table, self._known_words), len(table)
+        exported = pa.scalar(self.ids[participant], pa.string())
+        keys = (pa.repeat(exported, count), pa.repeat(pa.scalar(lap, pa.int16()), count))
         names = ["participant", "lap", *table.column_names]
         return pa.table(dict(zip(names, [*keys, *map(_whole, table.columns)], strict=True)))
 
     def _shared(
         self, table: pa.Table, columns: tuple[Column, ...]
     ) -> tuple[pa.Table, tuple[Column, ...]]:
-        ours = table.filter(pc.is_in(table["participant"], pa.array(self.people, pa.string())))
+        ours = table.filter(pc.is_in(table["participant"], pa.array(list(self.ids), pa.string())))
+        exported = [self.ids[name] for name in ours["participant"].to_pylist()]
+        at = ours.schema.get_field_index("participant")
+        ours = ours.set_column(at, ours.schema.field(at), pa.array(exported, pa.string()))
+        if self.study.elsewhere:
+            ours = only_known(of_the_study(ours, self.study), self._known_words)
         order = [(n, "ascending") for n in ("participant", "lap") if n in ours.column_names]
         # Stable: the questions of a lap stay in the order in which they were asked.
         keyed = ours.append_column("_row", pa.array(range(len(ours)), pa.int64()))
@@ -239,8 +279,13 @@ def _traits_apart(
     table: pa.Table, columns: tuple[Column, ...]
 ) -> tuple[pa.Table, tuple[Column, ...]]:
     """Put every trait into a column of its own."""
-    people = [dict(traits or ()) for traits in table["traits"].to_pylist()]
-    names = sorted({name for traits in people for name in traits})
+    made_up = pc.is_in(table["kind"], pa.array(SYNTHETIC, pa.string())).to_pylist()
+    people = [
+        dict(traits or ()) if synthetic else {}
+        for traits, synthetic in zip(table["traits"].to_pylist(), made_up, strict=True)
+    ]
+    # A name becomes a column's, and a part of the script for R.
+    names = sorted({name for traits in people for name in traits if _PLAIN_NAME.fullmatch(name)})
     apart = tuple(
         Column(f"trait_{name}", _F, f"Trait of a synthetic person: {name}", nullable=True)
         for name in names

@@ -10,6 +10,8 @@ from typing import IO
 import pyarrow as pa
 import pyarrow.compute as pc
 
+from protocols.files.csv_text import FORMULA_PATTERN
+
 
 @dataclass(frozen=True, slots=True)
 class Dialect:
@@ -74,10 +76,16 @@ def _text(array: pa.Array, dialect: Dialect) -> pa.Array:
     if pa.types.is_boolean(kind):
         text = pc.if_else(array, dialect.true, dialect.false)
     elif pa.types.is_string(kind):
-        text = _quoted(array, dialect)
+        text = _quoted(_no_formula(array), dialect)
     else:
         text = array.cast(pa.string())
     return pc.fill_null(text, dialect.missing)
+
+
+def _no_formula(array: pa.Array) -> pa.Array:
+    """Return text with an apostrophe in front where a spreadsheet would compute it."""
+    begins = pc.match_substring_regex(array, FORMULA_PATTERN)
+    return pc.if_else(begins, pc.binary_join_element_wise("'", array, ""), array)
 
 
 def _quoted(array: pa.Array, dialect: Dialect) -> pa.Array:

@@ -1,6 +1,7 @@
 """What could tell who took part, and what becomes of it before a study is handed on."""
 
-from collections.abc import Collection
+import re
+from collections.abc import Collection, Mapping, Sequence
 from types import MappingProxyType
 
 import pyarrow as pa
@@ -9,11 +10,15 @@ import pyarrow.compute as pc
 from protocols.files.errors import InputError
 from protocols.files.suggestion import allowed
 from protocols.record.column import Column
+from protocols.record.rows import participant_id
 
 INCLUDES = MappingProxyType(
     {
         "ages": "exact ages in years; without it, bands of ten years, 90 and above as one",
-        "words": "people's own words: reasons for leaving or stopping, and answers that are text",
+        "words": "people's own words: reasons for leaving or stopping, answers that are text, and "
+        "what other programs wrote where the study has no such word",
+        "ids": "ids that other programs gave and that are no short codes such as P01 or 7: a name, "
+        "an address or a platform's id; without it, they become P0001, P0002, ...",
     }
 )
 """What ``--include`` can add, and what it means."""
@@ -24,6 +29,9 @@ OLDEST_YEARS = 90
 all ages above 89 are one category)."""
 
 _WORDS = frozenset({"withdrawal", "stop_reason", "response_text"})
+
+_CODE = re.compile(r"[A-Za-z]{0,11}[-_ ]?\d{1,5}")
+"""An id that only the people of the study can read: letters, then a short number."""
 
 AGE = Column("age_years", pa.int16(), "Age", "years", nullable=True)
 AGE_BAND = Column(
@@ -71,6 +79,41 @@ def minimised(
         kept.append(column)
         arrays.append(table[column.name])
     return pa.table(dict(zip([c.name for c in kept], arrays, strict=True))), tuple(kept)
+
+
+def exported_ids(ids: Sequence[str]) -> dict[str, str]:
+    """Return the ids under which people are exported: their own where all are codes.
+
+    Examples
+    --------
+    >>> exported_ids(["P01", "P02"])
+    {'P01': 'P01', 'P02': 'P02'}
+    >>> exported_ids(["jo@example.org", "7"])
+    {'jo@example.org': 'P0001', '7': 'P0002'}
+    """
+    if all(_CODE.fullmatch(name) for name in ids):
+        return {name: name for name in ids}
+    return {name: participant_id(number) for number, name in enumerate(ids, start=1)}
+
+
+def only_known(table: pa.Table, known: Mapping[str, Collection[str]]) -> pa.Table:
+    """Return a table in which columns of words hold words of the study, and nothing else.
+
+    Parameters
+    ----------
+    table
+        As another program recorded it: there may be anything in it.
+    known
+        The words of some of its columns; what is not among them becomes missing.
+    """
+    for name, words in known.items():
+        at = table.schema.get_field_index(name)
+        if at < 0:
+            continue
+        given = table[name]
+        kept = pc.if_else(pc.is_in(given, pa.array(sorted(words), pa.string())), given, None)
+        table = table.set_column(at, name, kept)
+    return table
 
 
 def age_bands(ages: pa.ChunkedArray) -> pa.ChunkedArray:

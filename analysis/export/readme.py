@@ -1,6 +1,6 @@
 """The page that comes with every export: what it is, what is left out, and the licence."""
 
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from analysis.export.content import Content, Table, left_out
 from protocols.files.dump import plain_yaml
@@ -43,6 +43,11 @@ def study_text(content: Content) -> str:
     """Return protocol, course and questionnaires as YAML; nothing about the computer in use."""
     header = content.study.header.model_dump(mode="json", by_alias=True)
     kept = ("schema", "origin", "seed", "digest", "protocol", "instruments", "course")
+    protocol = header["protocol"]
+    protocol["live"]["completion"] = None  # a recruitment platform pays for its code
+    for model in protocol["models"].values():
+        if model["path"] is not None:  # of a computer that is nobody else's
+            model["path"] = PurePath(model["path"]).name
     return plain_yaml({name: header[name] for name in kept})
 
 
@@ -94,6 +99,7 @@ def _version() -> str:
 def _privacy(content: Content) -> list[str]:
     absent = len(content.study.participants) - len(content.people)
     times = "- calendar times: every time counts from the start of its lap"
+    tables = "In tables of text, an apostrophe stands before text that begins with =, +, - or @."
     listed = [f"- {words}" for words in left_out(content)]
     if absent:
         listed.append(f"- {absent} participants whose consent does not cover it")
@@ -101,6 +107,8 @@ def _privacy(content: Content) -> list[str]:
     return [
         *listed,
         times,
+        "",
+        tables,
         "",
         f"{people} of {len(content.people)} people are the only ones with their age (as given "
         "here), gender and handedness"

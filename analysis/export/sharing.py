@@ -8,7 +8,9 @@ import pyarrow.compute as pc
 
 from protocols.files.errors import InputError
 from protocols.files.suggestion import allowed
+from protocols.record.amendment import plan_number
 from protocols.record.reader import Study
+from protocols.registration import REGISTRATION, read_registration
 from protocols.shipped import locate_text
 
 _CREATIVE = "https://creativecommons.org"
@@ -33,6 +35,10 @@ DEFAULT_LICENCE = "CC0-1.0"
 
 LICENCES = tuple(_NAMES)
 """Identifiers (SPDX) of the licences for data that are known by name."""
+
+
+SYNTHETIC = ("synthetic", "scripted")
+"""Kinds of participants who are nobody."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +97,7 @@ def licence_of(given: str | None, *, living: bool) -> Licence:
 def has_living(study: Study) -> bool:
     """Tell whether living people took part, or may have: who does not say is taken as living."""
     kinds = set(study.participants["kind"].to_pylist())
-    return study.header.origin == "live" or not kinds <= {"synthetic", "scripted"}
+    return study.header.origin == "live" or not kinds <= set(SYNTHETIC)
 
 
 def check_sharing(study: Study) -> None:
@@ -112,9 +118,24 @@ def check_sharing(study: Study) -> None:
     )
 
 
-def may_be_shared(participants: pa.Table, *, living: bool) -> pa.ChunkedArray:
+def may_be_shared(study: Study, *, living: bool) -> pa.ChunkedArray:
     """Return for each participant whether the consent given covers the row.
 
-    A living person's consent must be on record; a refusal holds for everybody.
+    A living person's consent must be on record, and be to a text that allows sharing: of an
+    amended study, the text that was the plan's when the person took part. A refusal holds for
+    everybody.
+
+    Raises
+    ------
+    InputError
+        When an amended study of living people has no registration that can be read.
     """
-    return pc.fill_null(participants["consented"], not living)
+    people = study.participants
+    agreed = pc.fill_null(people["consented"], not living)
+    if not living or not study.header.amended:
+        return agreed
+    chain = read_registration(study.folder / REGISTRATION)
+    allows = [protocol.consent is not None and protocol.consent.sharing
+              for protocol in chain.protocols]  # fmt: skip
+    plans = [plan_number(study.header, name) for name in people["participant"].to_pylist()]
+    return pc.and_(agreed, pa.array([allows[number] for number in plans], pa.bool_()))

@@ -21,7 +21,7 @@ def export(
     ] = "frictionless",
     include: Annotated[
         list[str] | None,
-        typer.Option(help="Keep what could tell who took part: ages (exact), words (free text)."),
+        typer.Option(help="Keep what could tell who took part: ages (exact), words (free), ids."),
     ] = None,
     licence: Annotated[
         str | None,

@@ -2,10 +2,14 @@
 
 import csv
 import io
+import re
 from collections.abc import Iterable, Sequence
 
 _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
 """What a spreadsheet may take for the beginning of a formula, wide forms included."""
+
+FORMULA_PATTERN = f"^ *[{re.escape(''.join(_FORMULA))}]"
+"""The same as a regular expression, blanks in front included."""
 
 
 def csv_text(rows: Iterable[Sequence[object]]) -> str:

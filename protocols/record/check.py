@@ -10,7 +10,7 @@ from protocols.order import group_of, in_words, laps_of
 from protocols.record.amendment import first_digest, plan_number
 from protocols.record.codebook import CODEBOOK_FILE, codebook_json
 from protocols.record.column import SCHEMA_VERSIONS, arrow_schema, brought_up_to_date
-from protocols.record.elsewhere.faults import Tell, foreign_faults
+from protocols.record.elsewhere.faults import Tell, foreign_faults, without_steps
 from protocols.record.enrolment import purged, slot_of
 from protocols.record.header import STUDY_FILE, StudyHeader, read_header
 from protocols.record.identity import study_digest
@@ -109,14 +109,15 @@ def _mend(header: StudyHeader, session: Path, again: str) -> str:
 
 
 def check_remarks(folder: Path) -> tuple[str, ...]:
-    """Return what is read with a repair in a study directory without faults, one line each.
+    """Return what is repaired or not there in a study directory without faults, one line each.
 
     Parameters
     ----------
     folder
         A study directory that ``check_study`` finds nothing wrong with.
     """
-    return open_study(folder).remarks
+    study = open_study(folder)
+    return (*study.remarks, *without_steps(study))
 
 
 def _header_faults(folder: Path, header: StudyHeader, again: str) -> Iterator[str]:

@@ -196,10 +196,9 @@ class Study:
 
     def has_steps(self, participant: str, lap: int) -> bool:
         """Tell whether a lap's steps were recorded: elsewhere, they may not have been."""
-        folder: Path | None = self.folder / SESSIONS / participant
         if self._foreign:
-            folder = self._foreign.folders.get(participant)
-        return folder is not None and (folder / self._steps_file(lap)).is_file()
+            return self._foreign.path(participant, lap) is not None
+        return (self.folder / SESSIONS / participant / steps_file(lap)).is_file()
 
     def _steps_file(self, lap: int) -> str:
         return steps_file(lap - (self._foreign.shift if self._foreign else 0))

@@ -57,10 +57,12 @@ class StudyTables:
         path, protocol = self.folder / SURVEYS_TABLE, self.header.protocol
         if self.elsewhere and not path.exists():
             nothing = pa.schema([pa.field(c.name, c.type) for c in SURVEYS.columns]).empty_table()
-            return conform(nothing, SURVEYS, path)
+            return Conformed(conform(nothing, SURVEYS, path).table, self._unanswered("not there"))
         answers = self._table(SURVEYS_TABLE, SURVEYS)
         if not self.elsewhere:
             return answers
+        if not len(answers.table):
+            answers = Conformed(answers.table, self._unanswered("without a row"))
         return joined_answers(answers, self.laps.table, self.participants.table, protocol, path)
 
     @cached_property
@@ -90,6 +92,11 @@ class StudyTables:
         with suppress(InputError):  # said where the answers are read
             found += self.surveys.remarks
         return tuple(found)
+
+    def _unanswered(self, why: str) -> tuple[str, ...]:
+        """Return in words that there is no answer; nothing where nothing was to be asked."""
+        asked = bool(self.header.instruments)
+        return (f"{SURVEYS_TABLE}: {why}, and the study has questions",) if asked else ()
 
     def _table(self, name: str, rules: TableRules) -> Conformed:
         path = self.folder / name

@@ -18,6 +18,7 @@ from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
 
 from analysis.export.content import Content, LapSteps
+from analysis.export.file_labels import renamed_text
 from analysis.export.readme import write_about
 from analysis.export.registry import Tell
 from lad.inputs import INPUT_NAMES, N_SEGMENTS
@@ -168,9 +169,9 @@ def write(content: Content, folder: Path, tell: Tell) -> None:
     """Write one recording per participant into an empty folder."""
     for participant, laps in groupby(content.laps_with_steps(), lambda lap: lap.lap["participant"]):
         tell(f"Recording of {participant}")
-        with (folder / f"{participant}.mcap").open("wb") as stream:
+        with (folder / f"{content.labels[str(participant)]}.mcap").open("wb") as stream:
             _Recording(stream, content.study.protocol.control_period_s).write(laps)
-    write_about(content, folder, _HOW)
+    write_about(content, folder, _HOW + renamed_text(content.labels))
 
 
 class _Recording:

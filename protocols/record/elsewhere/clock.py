@@ -45,6 +45,8 @@ def lap_clock(t: NDArray[np.float64], lasted: Sequence[float]) -> Clock:
     """
     known = t[np.isfinite(t)]
     if len(known) < 2 or not (np.diff(known) > 0).any():
+        if len(known) and abs(float(known[0])) > _LONGEST:  # a stamp, and nothing to bring it to
+            return Clock(np.full(len(t), np.nan), (_contradiction(()),))
         return Clock(t, ())
     ends = float(known[0]), float(known[-1])
     step = float(np.median(np.diff(known)))
@@ -69,14 +71,47 @@ def lap_clock(t: NDArray[np.float64], lasted: Sequence[float]) -> Clock:
     return Clock((t - ends[0]) * scale, tuple(remarks))
 
 
+def spans(t: NDArray[np.float64]) -> tuple[tuple[float, float], ...]:
+    """Return how long a lap's steps may last, s, and the length of one, s.
+
+    Parameters
+    ----------
+    t
+        Times as recorded, shape (n,); NaN where missing.
+
+    Returns
+    -------
+    tuple
+        One for each unit in which a step has a plausible length, and for a clock that starts with
+        the steps or before them; empty where the times do not go on.
+    """
+    known = t[np.isfinite(t)]
+    if len(known) < 2 or not (np.diff(known) > 0).any():
+        return ()
+    ends, step = (float(known[0]), float(known[-1])), float(np.median(np.diff(known)))
+    return tuple(
+        (span, step * UNITS[unit])
+        for unit in _plausible(step)
+        for span in _spans(ends, step, UNITS[unit])
+    )
+
+
+def _plausible(step: float) -> list[str]:
+    return [unit for unit, scale in UNITS.items() if _FASTEST <= step * scale <= _SLOWEST]
+
+
+def _spans(ends: tuple[float, float], step: float, scale: float) -> list[float]:
+    """Return how long steps last from the first of them, and from the clock's zero, s."""
+    first, last = ends
+    return [(last - first + step) * scale, *([(last + step) * scale] if first >= 0 else [])]
+
+
 def _unit(ends: tuple[float, float], step: float, lasted: Sequence[float]) -> str | None:
     """Return the unit in which steps and lap agree; None where they do not in any."""
     first, last = ends
-    for unit, scale in UNITS.items():
-        whole = [(last - first + step) * scale, (last + step) * scale if first >= 0 else math.nan]
-        if not _FASTEST <= step * scale <= _SLOWEST:
-            continue
-        if any(_agree(seconds, lasted) for seconds in whole):
+    for unit in _plausible(step):
+        scale = UNITS[unit]
+        if any(_agree(seconds, lasted) for seconds in _spans(ends, step, scale)):
             return unit
         if not lasted and (last - first) * scale <= _LONGEST:
             return unit

@@ -74,6 +74,15 @@ def _unknown(rows: pa.Table, column: str, known: set[str], path: Path) -> Iterat
         yield f"{path}: {count.total()} rows of {column} {names}; allowed: {allowed}"
 
 
+def without_steps(study: Study) -> Iterator[str]:
+    """Name the laps that have no step table, where others have one, in words."""
+    laps = list(zip(*(study.laps[c].to_pylist() for c in ("participant", "lap")), strict=True))
+    absent = [f"{who}: {lap}" for who, lap in laps if not study.has_steps(who, lap)]
+    if absent and len(absent) < len(laps):
+        names = ", ".join(absent[:3]) + (", ..." if len(absent) > 3 else "")
+        yield f"{len(absent)} of {len(laps)} laps have no step table ({names})"
+
+
 def _steps(study: Study, tell: Tell | None) -> Iterator[str]:
     """Read every step table, and name what keeps it from being used as it is."""
     said: Counter[str] = Counter()

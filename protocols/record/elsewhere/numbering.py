@@ -32,13 +32,13 @@ def with_known_conditions(table: pa.Table, known: Iterable[str]) -> tuple[pa.Tab
     """
     known = set(known)
     given = table["condition"].to_pylist()
-    read_as: dict[str, list[str]] = defaultdict(list)
+    alike: dict[str, list[str]] = defaultdict(list)
     for name in known:
-        read_as[_read(name)].append(name)
+        alike[read_as(name)].append(name)
     meant = {
-        name: read_as[_read(name)][0]
+        name: alike[read_as(name)][0]
         for name in set(given) - known
-        if len(read_as.get(_read(name), ())) == 1
+        if len(alike.get(read_as(name), ())) == 1
     }
     if not meant:
         return table, ""
@@ -49,7 +49,8 @@ def with_known_conditions(table: pa.Table, known: Iterable[str]) -> tuple[pa.Tab
     return table, f"condition {pairs} ({sum(name in meant for name in given)} rows)"
 
 
-def _read(condition: str) -> str:
+def read_as(condition: str) -> str:
+    """Return what a reader takes a condition's name for: case, blanks and dashes do not tell."""
     return " ".join(one_form(condition).casefold().replace("_", " ").replace("-", " ").split())
 
 

@@ -1,7 +1,7 @@
 """The step tables of a study that other programs recorded, matched with its laps."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
@@ -10,12 +10,30 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
+from protocols.files.errors import InputError
 from protocols.record.elsewhere.clock import lap_clock
-from protocols.record.elsewhere.conform import Conformed
+from protocols.record.elsewhere.conform import Conformed, conform
 from protocols.record.elsewhere.folders import folders_by_person, lap_shift, strays, unusable_names
 from protocols.record.elsewhere.placement import INCOMPLETE, Floor, Placement
+from protocols.record.elsewhere.rules import STEPS
+from protocols.record.elsewhere.whose import (
+    LOOKED_AT,
+    Key,
+    LapRow,
+    Told,
+    helpers,
+    misfiled,
+    not_planned,
+    told_by,
+)
+from protocols.record.parquet import read_parquet
+from protocols.record.session import steps_file
 from protocols.record.sessions import SESSIONS, session_folders
 from protocols.record.study_tables import StudyTables
+
+_TIMES = replace(STEPS, required=("t_s",))
+NO_ROW = "the table has no row"
+"""What is said of a step table in which nothing is recorded."""
 
 
 class LapSteps(NamedTuple):
@@ -92,7 +110,15 @@ class ForeignSteps:
             Of which lap.
         against_lap
             Whether times are missing that contradict how long the lap took.
+
+        Raises
+        ------
+        InputError
+            When the table says of itself that it is another lap's.
         """
+        if (participant, lap) in self.misfiled:
+            path = self.path(participant, lap)
+            raise InputError(f"{path}: {self.misfiled[participant, lap]}")
         lasted = self._lasted.get((participant, lap), _Lasted())
         table = steps.table
         clock = lap_clock(_floats(table, "t_s"), lasted.seconds if against_lap else ())
@@ -102,9 +128,49 @@ class ForeignSteps:
         xy = np.column_stack([_floats(table, "x_m"), _floats(table, "y_m")])
         placement = self._floor.placement(xy, finished=lasted.finished)
         said = [remark.partition(": ")[2] for remark in steps.remarks]
+        if not len(table):
+            said.append(NO_ROW)
         if placement.on_course and not placement.whole:
             said.append(INCOMPLETE)
+        if (row := self._rows.get((participant, lap))) and (by := not_planned(table, row)):
+            said.append(f"commands of the {by} count, and the lap's condition has no such help")
         return LapSteps(table, (*clock.remarks, *said), placement)
+
+    def path(self, participant: str, lap: int) -> Path | None:
+        """Return a lap's step table; None where there is none."""
+        folder = self.folders.get(participant)
+        path = None if folder is None else folder / steps_file(lap - self.shift)
+        return path if path is not None and path.is_file() else None
+
+    @cached_property
+    def misfiled(self) -> dict[Key, str]:
+        """The step tables that are another lap's by what they say of themselves, in words."""
+        told = ((key, self._told(key)) for key in self._rows)
+        return misfiled(self._rows, {key: said for key, said in told if said is not None})
+
+    def _told(self, key: Key) -> Told | None:
+        """Return what a lap's step table says of itself; None where it cannot be read."""
+        path = self.path(*key)
+        if path is None:
+            return None
+        try:
+            table = conform(read_parquet(path, LOOKED_AT), _TIMES, path, LOOKED_AT).table
+        except InputError:  # said where the table is read
+            return None
+        return told_by(table, _floats(table, "t_s")) if len(table) else None
+
+    @cached_property
+    def _rows(self) -> dict[Key, LapRow]:
+        """What each lap's row says that its steps can be held against."""
+        table, conditions = self.tables.laps.table, self.tables.header.protocol.conditions
+        columns = ("participant", "lap", "condition", "steps")
+        rows = zip(*(table[c].to_pylist() for c in columns), strict=True)
+        return {
+            (who, lap): LapRow(
+                condition, helpers(conditions.get(condition)), self._lasted[who, lap].seconds, steps
+            )
+            for who, lap, condition, steps in rows
+        }
 
     @cached_property
     def _floor(self) -> Floor:

@@ -172,6 +172,60 @@ def _one_lap_without_steps(study: Study, rng: random.Random) -> None:
     del study.steps[rng.choice(sorted(study.steps))]
 
 
+def _exchanged(one: tuple[int, int], other: tuple[int, int]) -> Any:
+    """Return an exchange of the step tables of two laps, each by participant and lap."""
+
+    def deviate(study: Study, _: random.Random) -> None:
+        a, b = ((_people(study)[n], f"steps-{lap}.parquet") for n, lap in (one, other))
+        study.steps[a], study.steps[b] = study.steps[b], study.steps[a]
+
+    return deviate
+
+
+def _all_of_two_people_exchanged(study: Study, rng: random.Random) -> None:
+    for lap in range(3):
+        _exchanged((0, lap), (2, lap))(study, rng)
+
+
+def _rotated(study: Study, _: random.Random) -> None:
+    who = _people(study)[0]
+    names = [f"steps-{lap}.parquet" for lap in range(3)]
+    tables = [study.steps[who, name] for name in names]
+    for name, table in zip(names, [*tables[1:], tables[0]], strict=True):
+        study.steps[who, name] = table
+
+
+def _naming(column: str, value: Callable[[str, int], Any], *changes: Any) -> Any:
+    """Return step tables that name their lap in a column, then changes."""
+
+    def deviate(study: Study, rng: random.Random) -> None:
+        for (who, name), table in study.steps.items():
+            said = value(who, int(name[6:].partition(".")[0]))
+            study.steps[who, name] = _set(table, column, pa.array([said] * len(table)))
+        for change in changes:
+            change(study, rng)
+
+    return deviate
+
+
+def _all_as_long(study: Study, _: random.Random) -> None:
+    """Let nothing but a column of their own tell the step tables apart."""
+    study.tables["laps"] = study.tables["laps"].drop_columns(["duration_s"])
+    for key, table in study.steps.items():
+        study.steps[key] = _set(table, "t_s", pa.array(np.zeros(len(table))))
+
+
+def _one_empty_table(study: Study, rng: random.Random) -> None:
+    key = (_people(study)[0], "steps-1.parquet")
+    study.steps[key] = study.steps[key].slice(0, 0)
+
+
+def _helped_where_nobody_may(study: Study, _: random.Random) -> None:
+    key = (_people(study)[0], "steps-1.parquet")  # a lap of manual
+    table = study.steps[key]
+    study.steps[key] = _set(table, "control", pa.array(["demonstrator"] * len(table)))
+
+
 def _numbered_from_1(study: Study, rng: random.Random) -> None:
     for table in ("laps", "surveys"):
         _values(table, "lap", lambda n: n + 1)(study, rng)
@@ -241,6 +295,40 @@ DEVIATIONS: dict[str, Deviation] = {
     "half a lap": Deviation(_values("laps", "lap", lambda n: n + 0.5), "refused", "column lap is"),
     "lap as text": Deviation(_values("laps", "lap", str), "same"),
     "lap as true": Deviation(_values("laps", "lap", bool), "refused", "no number"),
+    # What step tables say of themselves, against where they are
+    "two laps' steps exchanged": Deviation(
+        _exchanged((0, 1), (0, 2)), "changed", "fits lap 2, and not lap 1"),
+    "three laps' steps exchanged": Deviation(_rotated, "changed", "fits lap 2, and not lap 1"),
+    "two people's steps exchanged": Deviation(
+        _all_of_two_people_exchanged, "changed", "fits lap 1 of 04, and not lap 1"),
+    "a person's column": Deviation(_naming("participant", lambda who, _: who), "same"),
+    "another person's column": Deviation(
+        _naming("participant", lambda who, _: who, _all_as_long, _exchanged((0, 1), (2, 1))),
+        "changed", "04 in its column participant"),
+    "a device's column": Deviation(_naming("participant", lambda *_: "chair 7"), "same"),
+    "a lap's column": Deviation(_naming("lap", lambda _, lap: lap), "same"),
+    "a lap's column from 1": Deviation(_naming("lap", lambda _, lap: lap + 1), "same"),
+    "another lap's column": Deviation(
+        _naming("lap", lambda _, lap: lap, _all_as_long, _exchanged((0, 1), (0, 2))),
+        "changed", "2 in its column lap"),
+    "another lap's column from 1": Deviation(
+        _naming("lap", lambda _, lap: lap + 1, _all_as_long, _exchanged((0, 1), (0, 2))),
+        "changed", "2 in its column lap"),
+    "another condition's column": Deviation(
+        _naming("condition", lambda _, lap: ("assisted", "Manual", "assisted")[lap],
+                _all_as_long, _exchanged((0, 1), (0, 2))),
+        "changed", "assisted in its column condition"),
+    "help where nobody may help": Deviation(
+        _helped_where_nobody_may, "same", "commands of the demonstrator count"),
+    # What is there, and has nothing in it
+    "answers without a row": Deviation(
+        lambda s, _: s.tables.update(surveys=s.tables["surveys"].slice(0, 0)), "changed",
+        "surveys.parquet: without a row"),
+    "no answers": Deviation(
+        lambda s, _: s.tables.pop("surveys"), "changed", "surveys.parquet: not there"),
+    "steps without a row": Deviation(_one_empty_table, "changed", "the table has no row"),
+    "laps without a row": Deviation(
+        lambda s, _: s.tables.update(laps=s.tables["laps"].slice(0, 0)), "refused", "has no row"),
     # What is not said
     "no excluded": Deviation(
         _drop("participants", "excluded"), "same", "Who is excluded was not recorded"),

@@ -63,7 +63,7 @@ def test_practice_is_the_first_lap_of_its_condition_in_any_numbering(written, as
     assert not set(times) & set(found.differs(as_clean))
     assert any("laps of assisted are practice by the plan" in word for word in found.words)
     assert check_study(folder) == ()
-    assert len(check_remarks(folder)) == 2
+    assert len(check_remarks(folder)) == 3
 
 
 def test_a_rule_is_applied_where_nobody_said_who_is_excluded(written):

@@ -1,12 +1,17 @@
 """Whose data may be handed on, and what is left out of them."""
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import pandas as pd
 import pyarrow as pa
 import pytest
 
 from analysis.export.privacy import age_bands, unique_people
+from analysis.export.sharing import may_be_shared
 from analysis.export.write import export_study
 from protocols.files.errors import InputError
+from protocols.record.header import AmendedStudy
 
 WORDS = "I feel sick, says Jo"
 
@@ -77,6 +82,22 @@ def test_who_did_not_consent_is_left_out(make_study, consented_protocol, tmp_pat
         there = set(pd.read_csv(tmp_path / "out" / name)["participant"])
         assert there == {"P0001", "P0003", "P0004"}, name
     assert "1 participants whose consent" in (tmp_path / "out" / "README.md").read_text()
+
+
+def test_who_agreed_to_a_text_without_sharing_is_left_out(
+    make_study, consented_protocol, monkeypatch
+):
+    """An amendment that allows sharing says nothing about those who took part before it."""
+    study = make_study(consented_protocol(sharing=True), participants=3, living=True)
+    later = study.protocol
+    consent = later.consent.model_copy(update={"sharing": False})
+    first = later.model_copy(update={"consent": consent})
+    chain = SimpleNamespace(protocols=(first, later))
+    monkeypatch.setattr("analysis.export.sharing.read_registration", lambda _: chain)
+    amended = (AmendedStudy(number=1, sessions=("P0001",)),)
+    header = study.header.model_copy(update={"amended": amended})
+    shared = may_be_shared(replace(study, header=header), living=True)
+    assert shared.to_pylist() == [False, True, True]
 
 
 def test_a_licence_of_ones_own_goes_with_the_copy(study, tmp_path):

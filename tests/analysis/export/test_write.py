@@ -110,7 +110,9 @@ def test_an_unknown_format_is_refused():
 
 def test_an_unknown_inclusion_is_refused(study, tmp_path):
     """One line with what can be included."""
-    with pytest.raises(InputError, match="--include: 'names' is not known; allowed: ages, words"):
+    with pytest.raises(
+        InputError, match="--include: 'names' is not known; allowed: ages, words, ids"
+    ):
         export_study(study.folder, "r", tmp_path / "out", include=frozenset({"names"}))
 
 
