@@ -16,7 +16,7 @@ class _Nearest:
     """Means over the targets of the k nearest rows; over all rows when there are fewer.
 
     The tree is asked directly: scikit-learn's estimators give the same numbers, and check and wrap
-    a row so thoroughly that a step costs some thirty times as much.
+    a row so thoroughly that a look takes four times as long.
     """
 
     def __init__(self, k: int) -> None:

@@ -1,12 +1,14 @@
 """Models that others have taught may be of either shipped kind; own laps teach any assistant."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
+import pyarrow as pa
 import pytest
 
 from harness.running.runner import run_study
-from harness.session.borrowed import _restored, borrowed_models
+from harness.session.borrowed import _restored, _teach, borrowed_models
 from harness.session.study_run import StudyRun
 from lad.command import Command
 from lad.correction import CorrectionAssistant
@@ -110,3 +112,17 @@ def test_who_had_no_lap_there_is_named(taught):
     """One line, with the folder and the participant."""
     with pytest.raises(InputError, match=r"taught: no training lap of P0007"):
         borrowed_models(plan(taught, HELPED, "lad"), 7, world=None)
+
+
+def test_a_record_without_the_users_command_teaches_no_correction():
+    """A correction is of the user's command: the lap is named, and nothing of it is learnt."""
+    n = 30
+    columns = {name: np.full(n, 0.3) for name in INPUT_NAMES}
+    columns |= {"user_w": np.full(n, np.nan), "h": np.ones(n), "a_v": np.zeros(n)}
+    steps = pa.table({**columns, "a_w": np.zeros(n)})
+    study = SimpleNamespace(folder="elsewhere", steps=lambda *_: steps)
+    model = CorrectionAssistant()
+    before = model.to_bytes()
+    with pytest.raises(InputError, match="elsewhere: P0001, lap 2: inputs or h were not recorded"):
+        _teach(model, study, "P0001", 2, corrected=False)
+    assert model.to_bytes() == before
