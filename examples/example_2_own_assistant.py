@@ -51,7 +51,7 @@ lad_study("check-part", "nearest_five:NearestFive")
 # -------
 #
 # Every assistant meets the same people, noise and demonstrations, and is compared with its own
-# demonstrator. The full benchmark has ten settings; this is one of them, the paper's. Code of your
+# demonstrator. The full benchmark has thirteen settings; this is one of them, the paper's. Code of your
 # own runs once you allow it with ``--trust``, and after that until its file changes.
 
 if quick:

@@ -2,12 +2,19 @@
 
 from typing import Any, Protocol
 
+from lad.errors import ModelFileError
 from lad.health import Health
 from lad.hyperparameters import GPHyperparameters, LADParameters
 from lad.snapshot import Arrays, restore_state, restore_window, state_arrays, window_arrays
 from lad.stork_gp import StorkGP
 from lad.tuning.taught import PREFIX, TaughtSteps
 from lad.tuning.tune import Tuned
+
+FIELDS = frozenset(
+    ("format", "format_version", "library_version", "kind", "parameters", "window", "health",
+     "taught_since", "tuned")
+)  # fmt: skip
+"""Every field that a header may have."""
 
 
 class Pair(Protocol):
@@ -78,6 +85,11 @@ def restore(pair: Pair, header: dict[str, Any], arrays: Arrays) -> None:
     arrays
         As they were saved, by name.
 
+    Raises
+    ------
+    ModelFileError
+        When the header has a field of another version: what it says cannot be left out.
+
     Examples
     --------
     >>> import numpy as np
@@ -91,6 +103,9 @@ def restore(pair: Pair, header: dict[str, Any], arrays: Arrays) -> None:
     >>> fresh.assist(np.ones(19)) == taught.assist(np.ones(19))
     True
     """
+    unknown = sorted(set(header) - FIELDS)
+    if unknown:
+        raise ModelFileError(f"header: {unknown[0]!r} is of another version of lad-study")
     if "tuned" in header:
         when, how = (GPHyperparameters.from_header(header["tuned"][n]) for n in ("when", "how"))
         pair.tuned = Tuned(when, how, header["tuned"]["steps"])

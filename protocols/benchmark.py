@@ -7,7 +7,7 @@ from typing import Any
 from protocols.cohort import Cohort, DemonstratorChoice, DriverChoice, ImpairmentChoice
 from protocols.condition import Condition, LimitationSettings
 from protocols.laps import PlannedLap
-from protocols.model_choice import ModelChoice
+from protocols.model_choice import BorrowedModel, ModelChoice
 from protocols.start_noise import StartNoise
 from protocols.study import StudyProtocol
 
@@ -62,12 +62,18 @@ SETTINGS: tuple[Setting, ...] = (
     Setting("right-and-lag", RIGHT | {"lag_s": 0.4}),
     Setting("right-and-dead-zone", RIGHT | {"dead_zone": 0.2}),
     Setting("people", RIGHT, driver=DriverChoice(use="human")),
-    Setting("tremor", RIGHT, impairment=ImpairmentChoice(use="tremor", severity=0.5)),
+    *(
+        Setting(name, RIGHT, impairment=ImpairmentChoice(use=name, severity=0.5))
+        for name in ("tremor", "spasticity", "bias", "delay")
+    ),
     Setting("slow-to-react", RIGHT, demonstrator={"reaction_s": 0.8, "reaction_spread": 0.5}),
     Setting("elsewhere", RIGHT, "ward-corridor", taught_on="right"),
 )
 """The shipped benchmark. The first is the paper's; in the last an assistant drives in a building
-in which nothing was demonstrated, as only assistants can that are saved."""
+in which nothing was demonstrated."""
+
+ELSEWHERE = "taught elsewhere"
+"""The model of a setting in which nothing is demonstrated."""
 
 
 def helped(demonstrations: int) -> str:
@@ -76,7 +82,11 @@ def helped(demonstrations: int) -> str:
 
 
 def benchmark_protocol(
-    setting: Setting, model: ModelChoice, replicates: int, demonstrations: tuple[int, ...]
+    setting: Setting,
+    model: ModelChoice,
+    replicates: int,
+    demonstrations: tuple[int, ...],
+    taught_in: str | None = None,
 ) -> StudyProtocol:
     """Return the study of one assistant in one setting.
 
@@ -95,6 +105,8 @@ def benchmark_protocol(
         Participants, 1 or more.
     demonstrations
         Rising numbers, each 1 or more.
+    taught_in
+        Where it is not taught here: the folder of the study in which it was, for each participant.
 
     Examples
     --------
@@ -103,14 +115,18 @@ def benchmark_protocol(
     ['demonstration', 'after 1', 'demonstration', 'demonstration', 'after 3', 'test']
     """
     limitation = LimitationSettings.model_validate(dict(setting.limitation))
-    taught_here = setting.taught_on is None
+    taught_here = taught_in is None
+    whose = "own" if taught_here else ELSEWHERE
     conditions = {
         ALONE: Condition(limitation=limitation),
         DEMONSTRATION: Condition(
             limitation=limitation, assistant="demonstrator", training=taught_here
         ),
         TEST: Condition(limitation=limitation, assistant="demonstrator"),
-        **{helped(n): Condition(limitation=limitation, assistant="model") for n in demonstrations},
+        **{
+            helped(n): Condition(limitation=limitation, assistant="model", model=whose)
+            for n in demonstrations
+        },
     }
     order = _order(demonstrations) if taught_here else [ALONE, DEMONSTRATION, *_helped(conditions)]
     return StudyProtocol(
@@ -127,6 +143,9 @@ def benchmark_protocol(
         conditions=conditions,
         laps=tuple(PlannedLap(condition=name) for name in order),
         model=model,
+        models={}
+        if taught_in is None
+        else {ELSEWHERE: BorrowedModel.model_validate({"from": "own laps", "path": taught_in})},
         start_noise=StartNoise(position_m=0.1, heading_rad=0.1),
     )
 
@@ -140,5 +159,5 @@ def _order(demonstrations: tuple[int, ...]) -> list[str]:
 
 
 def _helped(conditions: Mapping[str, Condition]) -> Iterator[str]:
-    """Yield the last helped condition: the model file holds all demonstrations."""
+    """Yield the last helped condition: the model is taught all demonstrations."""
     yield [name for name, condition in conditions.items() if condition.assistant == "model"][-1]

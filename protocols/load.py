@@ -297,7 +297,7 @@ def _hash(model: BorrowedModel, name: str, folder: Path | None) -> str | None:
     path = (folder or Path()) / model.path
     at = ("models", name, "path")
     try:
-        found = read_header(path).digest if model.source == "pooled" else _sha256(path)
+        found = _sha256(path) if model.source == "file" else read_header(path).digest
     except (InputError, OSError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise _ReferenceError(Fault(at, f"{model.path}: cannot be borrowed: {reason}")) from None

@@ -42,6 +42,10 @@ class ModelChoice(FileModel):
 Sha256 = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
 
 
+FROM_OUTSIDE = ("file", "pooled", "own laps")
+"""Sources that are not in the study itself: a file, or another study's folder."""
+
+
 class BorrowedModel(FileModel):
     """A model that somebody else than the participant has taught.
 
@@ -51,7 +55,9 @@ class BorrowedModel(FileModel):
         ``from`` in a file. ``pilot``: a synthetic person who is no participant drives the study's
         training laps once. ``previous participant``: as the participant before left it (the first
         one gets the pilot's); sessions then run one after the other. ``file``: a model file.
-        ``pooled``: taught all training laps of another study, one after the other.
+        ``pooled``: taught all training laps of another study, one after the other. ``own laps``:
+        the protocol's model, taught the training laps that the same participant had in another
+        study.
     path
         Of the model file, or the study's folder. In a file's path ``{participant}`` stands for the
         participant's id: ``runs/a/sessions/{participant}/model.npz`` borrows each participant's of
@@ -62,15 +68,16 @@ class BorrowedModel(FileModel):
     """
 
     source: Annotated[
-        Literal["pilot", "previous participant", "file", "pooled"], Field(alias="from")
+        Literal["pilot", "previous participant", "file", "pooled", "own laps"],
+        Field(alias="from"),
     ]
     path: str | None = None
     sha256: Sha256 | None = None
 
     @model_validator(mode="after")
     def _a_path_where_one_is_needed(self) -> Self:
-        if (self.source in ("file", "pooled")) != (self.path is not None):
-            raise ValueError("a path is needed for from: file and from: pooled, and only for them")
+        if (self.source in FROM_OUTSIDE) != (self.path is not None):
+            raise ValueError(f"a path is needed for from: {', '.join(FROM_OUTSIDE)}; only for them")
         return self
 
 

@@ -17,6 +17,7 @@ from protocols.orders import Orders
 from protocols.pages import Consent, Particular, Text
 from protocols.shipped_parts import LAD
 from protocols.start_noise import StartNoise
+from protocols.wheelchair import LASER_RANGE
 
 Publication = Literal["soh-demiris-2013"]
 """Published studies that the analysis knows the figures of."""
@@ -33,10 +34,13 @@ class LaserSettings(FileModel):
         At least one in each of the model's 12 degree segments.
     caster
         ``sweep`` is our compiled sweep over the course's walls, ``pybullet`` the physics engine.
+    model_reach_m
+        The farthest that the model's segments say, in m; drivers see as far as the laser does.
     """
 
     rays: Annotated[int, Field(ge=21, le=2000)] = 180
     caster: CasterName = "sweep"
+    model_reach_m: Annotated[float, Field(ge=0.5, le=LASER_RANGE)] = LASER_RANGE
 
 
 class StudyProtocol(FileModel):

@@ -20,6 +20,7 @@ Z90 = 1.6448536269514722
 """Half the width of a central 90% interval, in standard deviations of a Gaussian."""
 
 MEASURES: dict[str, str] = {
+    "lap_s": "lap time, s",
     "minus_demonstrator_s": "lap time minus the demonstrator's mean, s; an unfinished lap counts "
     "as long as it took",
     "minus_alone_s": "lap time minus the lap alone, s",
@@ -75,6 +76,7 @@ def _of_participant(
         yield {
             "participant": participant,
             "demonstrations": int(str(lap["condition"]).split()[-1]),
+            "lap_s": lap["duration_s"],
             "minus_demonstrator_s": lap["duration_s"] - demonstrator,
             "minus_alone_s": lap["duration_s"] - alone,
             "finished": float(lap["completed"]),

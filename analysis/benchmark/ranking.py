@@ -10,6 +10,9 @@ from analysis.stats.mean_difference import mean_difference
 BY = "minus_demonstrator_s"
 """What assistants are ranked by: how much slower than the demonstrator's their laps are."""
 
+WORST = ("lap_s", BY, "takeovers")
+"""Measures of which the largest is given beside the mean."""
+
 
 def cell_table(measures: pd.DataFrame) -> pd.DataFrame:
     """Return means over replicates, with the 95% interval of the lap time.
@@ -23,14 +26,16 @@ def cell_table(measures: pd.DataFrame) -> pd.DataFrame:
     -------
     DataFrame
         One row for each setting, number of demonstrations and assistant: ``n``, ``low`` and
-        ``high`` of ``minus_demonstrator_s``, and the mean of each measure.
+        ``high`` of ``minus_demonstrator_s``, the mean of each measure, and of those in ``WORST``
+        the largest, as ``worst_`` and the name.
     """
     rows = []
     for key, cell in measures.groupby(["setting", "demonstrations", "assistant"], sort=False):
         result = mean_difference(cell[BY].tolist())
         means = {name: float(cell[name].mean()) for name in MEASURES}
+        worst = {f"worst_{name}": float(cell[name].max()) for name in WORST}
         keys = dict(zip(("setting", "demonstrations", "assistant"), key, strict=True))
-        rows.append(keys | {"n": len(cell), "low": result.low, "high": result.high} | means)
+        rows.append(keys | {"n": len(cell), "low": result.low, "high": result.high} | means | worst)
     return pd.DataFrame(rows)
 
 

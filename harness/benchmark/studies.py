@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from harness.running.runner import Tell, run_study
-from harness.session.model import make_model, saved
+from harness.session.model import make_model
 from harness.session.study_run import StudyRun
 from protocols.benchmark import DEMONSTRATIONS, SETTINGS, Setting, benchmark_protocol
 from protocols.code_beside import PartBeside
@@ -14,8 +14,6 @@ from protocols.files.errors import InputError
 from protocols.load import load_course
 from protocols.model_choice import ModelChoice
 from protocols.record.logs import failure_reason
-from protocols.record.session import MODEL_FILE
-from protocols.record.sessions import SESSIONS
 from protocols.resolved import ResolvedStudy
 
 Progress = Callable[[str], AbstractContextManager[Tell]]
@@ -89,7 +87,8 @@ def plan(
 ) -> tuple[Cell, ...]:
     """Return the studies of a benchmark, in the order to be run.
 
-    An assistant that cannot be saved is left out of settings in which it is not taught.
+    In a setting in which nothing is demonstrated, each replicate's assistant is taught the
+    demonstrations that the same replicate gave in the setting named by ``taught_on``.
 
     Parameters
     ----------
@@ -118,15 +117,9 @@ def plan(
     for setting in settings:
         course = load_course(setting.course)
         for entry in entries:
-            model = entry.model
-            if setting.taught_on is not None:
-                if saved(make_model(model, code=code)) is None:
-                    continue
-                path = f"{{folder}}/{setting.taught_on}/{entry.label}/{SESSIONS}/{{participant}}"
-                options = {"path": f"{path}/{MODEL_FILE}"}
-                model = ModelChoice(use="taught", options=options)
-            protocol = benchmark_protocol(setting, model, replicates, demonstrations)
-            beside = tuple(part for part in code if part.use == protocol.model.use)
+            there = setting.taught_on and f"{setting.taught_on}/{entry.label}"
+            protocol = benchmark_protocol(setting, entry.model, replicates, demonstrations, there)
+            beside = tuple(part for part in code if part.use == entry.model.use)
             study = ResolvedStudy(protocol, course, (), folder=out, beside=beside, trusted=True)
             run = StudyRun(study, seed)
             cells.append(Cell(entry, setting, run, out / setting.name / entry.label))

@@ -58,8 +58,9 @@ def benchmark(
 ) -> int:
     """Compare assistants over courses, limitations, drivers and demonstrators.
 
-    Writes benchmark.md (a table that ranks, with paired intervals), cells.csv and measures.csv.
-    A run that was stopped goes on where it was when the same command is given again.
+    Writes benchmark.md (a table that ranks, with paired intervals), cells.csv, measures.csv, and
+    costs.csv: the CPU time of a look, which differs from run to run. A run that was stopped goes on
+    where it was when the same command is given again.
 
     A model of your own is module:factory of a module in this folder; it runs with --trust only,
     and after that until its file changes.
@@ -97,16 +98,20 @@ def _benchmark(folder: Path, cells: "Sequence[Cell]", jobs: int, scheduler: str 
         complain(line)
     if failures:
         return 1
-    from analysis.benchmark.write import Recorded, write_benchmark
+    from analysis.benchmark.write import Recorded, write_benchmark, write_costs
+    from harness.benchmark.cost import step_costs
 
     studies = [
         Recorded(c.setting.name, c.entry.label, c.folder, _free_side(c.setting)) for c in cells
     ]
     page, ranks = write_benchmark(folder, studies)
+    costs = step_costs(cells)
+    write_costs(folder, costs)
     for row in ranks.to_dict("records"):
         place, who = f"{row['mean_rank']:5.2f}", row["assistant"]
         behind, finished = row["minus_demonstrator_s"], row["finished"]
-        say(f"{place}  {who}: {behind:+.2f} s from the demonstrator, {finished:.1%} finished")
+        cost = f", {costs[who]:.0f} us a look" if who in costs else ""
+        say(f"{place}  {who}: {behind:+.2f} s from the demonstrator, {finished:.1%} finished{cost}")
     say(f"Page: {page}")
     return 0
 

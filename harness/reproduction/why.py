@@ -5,6 +5,7 @@ from pathlib import Path
 
 from harness.reproduction.full import TEACHING
 from harness.reproduction.studies import STUDIES, Experiment
+from harness.session.model import make_model
 from harness.session.study_run import StudyRun
 from protocols.cohort import DemonstratorChoice
 from protocols.explanations import EXPLANATIONS, Explanation
@@ -25,7 +26,14 @@ def why_experiments(out: Path, seed: int) -> tuple[Experiment, ...]:
         The reproduction's folder.
     seed
         Of every study; 0 or more.
+
+    Raises
+    ------
+    InputError
+        When a model cannot be made (nearest neighbours without scikit-learn).
     """
+    for explanation in EXPLANATIONS:
+        make_model(explanation.model)
     return tuple(
         Experiment(StudyRun(_study(e), seed), out / STUDIES / WHY / e.name) for e in EXPLANATIONS
     )
@@ -55,6 +63,7 @@ def _study(explanation: Explanation) -> ResolvedStudy:
         "conditions": {name: protocol.conditions[name] for name in names},
         "laps": tuple(PlannedLap(condition=n, practice=n in practised) for n in order),
         "model": explanation.model,
+        "laser": protocol.laser.model_copy(update={"model_reach_m": explanation.laser_m}),
         "analyses": (),
     }
     return replace(study, protocol=protocol.model_copy(update=changes), instruments=())

@@ -6,12 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
+from harness.session.latent_teaching import Taught
 from harness.session.model import make_model
-from harness.session.parts import NO_SEATS, Seats, SessionParts, make_parts
+from harness.session.parts import NO_SEATS, Seats, SessionParts, make_parts, session_model
 from harness.session.session import Session
-from harness.session.study_run import StudyRun
+from harness.session.study_run import StudyRun, of_one
 from harness.world.world import World
-from lad.assistant import Assistant
+from lad.assistant import Assistant, Learner
 from lad.command import Command
 from lad.errors import ModelFileError
 from lad.inputs import INPUT_NAMES
@@ -47,7 +48,9 @@ def borrowed_models(run: StudyRun, number: int, world: World) -> dict[str, Assis
         When a file or another study cannot be used.
     """
     return {
-        name: _restored(_bytes_of(run, number, name, source, world), name)
+        name: _taught_own_laps(run, number, source)
+        if source.source == "own laps"
+        else _restored(_bytes_of(run, number, name, source, world), name)
         for name, source in run.study.protocol.models.items()
     }
 
@@ -123,25 +126,59 @@ def _pilot(run: StudyRun, world: World) -> bytes:
 
 def _pooled(run: StudyRun, source: BorrowedModel) -> bytes:
     """Teach a fresh model every training lap of another study, in the order of its participants."""
-    folder = (run.study.folder or Path()) / (source.path or "")
-    study = open_study(folder)
     model = make_model(run.study.protocol.model)
     if not isinstance(model, LADAssistant):
         raise InputError("a pooled model is lad's; allowed: model: {use: lad}")
-    laps = study.laps.to_pandas()
-    conditions = study.protocol.conditions
-    taught = laps[[c in conditions and conditions[c].training for c in laps["condition"]]]
-    if taught.empty:
-        raise InputError(f"{folder}: no training lap in it to teach a pooled model")
-    for lap in taught.to_dict("records"):
-        corrected = conditions[lap["condition"]].corrections is not None
-        _teach(model, study, lap["participant"], int(lap["lap"]), corrected=corrected)
+    teach_laps(model, _other_study(run, source))
     return model.to_bytes()
 
 
-def _teach(
-    model: LADAssistant, study: Study, participant: str, lap: int, *, corrected: bool
-) -> None:
+def _taught_own_laps(run: StudyRun, number: int, source: BorrowedModel) -> Assistant:
+    """Return the protocol's model after the training laps that a participant had elsewhere.
+
+    It is taught from the record, so it may be any assistant; one that learns nothing is as made.
+    """
+    model = session_model(of_one(run, number), number)
+    if isinstance(model, Learner):
+        teach_laps(model, _other_study(run, source), participant_id(number))
+    return model
+
+
+def _other_study(run: StudyRun, source: BorrowedModel) -> Study:
+    return open_study((run.study.folder or Path()) / (source.path or ""))
+
+
+def teach_laps(model: Taught, study: Study, participant: str | None = None) -> None:
+    """Teach a study's training laps in the order driven.
+
+    Parameters
+    ----------
+    model
+        Learns.
+    study
+        As recorded.
+    participant
+        Whose laps; None for everybody's, one after the other.
+
+    Raises
+    ------
+    InputError
+        When there is no such lap, or inputs or h were not recorded in each step.
+    """
+    laps = study.laps.to_pandas()
+    conditions = study.protocol.conditions
+    taught = laps[[c in conditions and conditions[c].training for c in laps["condition"]]]
+    if participant is not None:
+        taught = taught[taught["participant"] == participant]
+    if taught.empty:
+        whose = "" if participant is None else f" of {participant}"
+        raise InputError(f"{study.folder}: no training lap{whose} in it to teach a model")
+    for lap in taught.to_dict("records"):
+        corrected = conditions[lap["condition"]].corrections is not None
+        _teach(model, study, lap["participant"], int(lap["lap"]), corrected=corrected)
+
+
+def _teach(model: Taught, study: Study, participant: str, lap: int, *, corrected: bool) -> None:
     """Teach a recorded lap; of one of corrections the steps in which the demonstrator drove."""
     columns = [*INPUT_NAMES, "h", "a_v", "a_w"]
     steps = study.steps(participant, lap, columns).to_pandas().astype("float64")

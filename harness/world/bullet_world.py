@@ -62,6 +62,7 @@ class BulletWorld:
         self._chair = BulletChair(boxes, period / self._substeps)
         self._controller = VelocityController()
         self._laser = Laser(boxes, settings.rays, _CASTERS[settings.caster])
+        self._model_reach = settings.model_reach_m
         self._scan_every = max(1, round(scan_period / period))
         self._table = box_table(boxes)
         self._guard = Safeguard(boxes, period)
@@ -171,4 +172,5 @@ class BulletWorld:
             raise RuntimeError("reset the world before the first step")
         x = pose.x + LASER_AHEAD * math.cos(pose.heading)
         y = pose.y + LASER_AHEAD * math.sin(pose.heading)
-        return self._laser.scan(Pose(x, y, pose.heading), self._rng)
+        ranges, segments = self._laser.scan(Pose(x, y, pose.heading), self._rng)
+        return ranges, np.minimum(segments, self._model_reach)

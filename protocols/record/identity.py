@@ -10,6 +10,7 @@ from protocols.files.document import spoken
 from protocols.files.fault import Location
 from protocols.live import LiveSettings, QuestionPages
 from protocols.resolved import ResolvedStudy
+from protocols.wheelchair import LASER_RANGE
 
 _ABSENT = object()
 
@@ -51,6 +52,7 @@ _LATER: Mapping[str, Mapping[str, Any]] = {
     "group": {"course": None},
     "limitation": {"left_turn_rad_s": None, "speed_m_s": None, "lag_s": 0.0, "dead_zone": 0.0},
     "parameters": LADParameters.later_defaults(),
+    "laser": {"model_reach_m": LASER_RANGE},
 }
 """Fields that came after the first version, with their defaults. A study that does not use them
 is the study it was: its digest and its record stay the same."""
@@ -126,8 +128,12 @@ def _with_later_fields(
     yield protocol["exclusion"], "exclusion"
     if protocol["consent"] is not None:
         yield protocol["consent"], "consent"
+    yield protocol["laser"], "laser"
     yield protocol["model"]["parameters"], "parameters"
-    yield from ((group, "group") for group in protocol["groups"].values())
+    for group in protocol["groups"].values():
+        if group["model"] is not None:
+            yield group["model"]["parameters"], "parameters"
+        yield group, "group"
     for condition in protocol["conditions"].values():
         if condition["limitation"] is not None:
             yield condition["limitation"], "limitation"

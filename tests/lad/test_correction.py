@@ -8,7 +8,7 @@ from scipy.linalg import cho_factor, cho_solve
 
 from lad.command import Command
 from lad.correction import CorrectionAssistant
-from lad.errors import InvalidTargetError, ModelFileError
+from lad.errors import InvalidInputError, InvalidTargetError, ModelFileError
 from lad.hyperparameters import LADParameters
 from lad.kernel import recursive_kernel
 from lad.lad_assistant import LADAssistant
@@ -116,6 +116,24 @@ def test_a_file_of_one_kind_is_not_the_other(tmp_path):
         CorrectionAssistant.from_bytes(LADAssistant().to_bytes())
     LADAssistant().save(tmp_path / "paper.npz")
     assert type(load(str(tmp_path / "paper.npz"))) is LADAssistant
+
+
+@pytest.mark.parametrize("missing", [slice(0, 2), slice(1, 2)])
+@pytest.mark.parametrize("how", ["left out", "no number"])
+def test_without_the_users_command_nothing_is_learnt(missing, how):
+    """A correction is of something: inputs without it are refused, and the model is what it was."""
+    model = CorrectionAssistant()
+    taught(model, steps=5)
+    before = model.to_bytes()
+    x = np.full(19, 0.3)
+    x[missing] = np.nan
+    with pytest.raises(InvalidInputError):
+        model.assist(x if how == "no number" else np.delete(x, missing))
+    assert model.to_bytes() == before
+    model.start_lap()
+    with pytest.raises(InvalidTargetError, match="nothing was seen"):
+        model.learn(helping=True, command=Command(0.2, -0.3))
+    assert model.how.n_basis == CorrectionAssistant.from_bytes(before).how.n_basis
 
 
 @pytest.mark.parametrize("bad", [Command(np.nan, 0.0), (0.1,), (0.1, 0.2, 0.3), None])

@@ -67,6 +67,7 @@ def test_every_measure_by_hand():
         )
     ).iloc[0]
     assert found["demonstrations"] == 1
+    assert found["lap_s"] == 42.0
     assert found["minus_demonstrator_s"] == pytest.approx(1.5)
     assert found["minus_alone_s"] == pytest.approx(-17.0)
     assert found["chatter"] == 1.0

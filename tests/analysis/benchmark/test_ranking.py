@@ -64,4 +64,14 @@ def test_the_page_has_every_cell_and_a_dash_for_what_is_missing():
     """One line a cell; an interval of one replicate is a dash."""
     frame = measures({("a", 1, "only"): [1.25]})
     text = page(cell_table(frame), ranking(frame))
-    assert "| 1 | only | 1 | 1.25 | – |" in text
+    assert "| 1 | only | 1 | 0.0 (0.0) | +1.25 (+1.25) | – |" in text
+
+
+def test_the_worst_replicate_stands_beside_the_mean():
+    """A mean below 45 s does not hide a lap above."""
+    frame = measures({("a", 1, "only"): [1.0, 3.0]})
+    frame["lap_s"] = [41.0, 52.0]
+    cell = cell_table(frame).iloc[0]
+    assert (cell["lap_s"], cell["worst_lap_s"]) == (46.5, 52.0)
+    assert cell["worst_minus_demonstrator_s"] == 3.0
+    assert "| 46.5 (52.0) | +2.00 (+3.00) |" in page(cell_table(frame), ranking(frame))

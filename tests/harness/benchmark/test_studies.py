@@ -7,6 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from analysis.benchmark.write import Recorded, write_benchmark
+from harness.benchmark.cost import step_costs
 from harness.benchmark.studies import plan, run_cells
 from harness.cli.app import app
 from harness.session.study_run import portable
@@ -32,11 +33,14 @@ def test_all_assistants_meet_the_same_people(tmp_path):
     assert one.run.seed == other.run.seed == 5
 
 
-def test_only_what_can_be_saved_drives_elsewhere(tmp_path):
-    """Nearest neighbours have no file: they are left out where they are not taught."""
+def test_every_assistant_drives_elsewhere_with_what_it_was_taught(tmp_path):
+    """Nearest neighbours have no file: each replicate's are taught from its own recorded laps."""
     cells = plan(tmp_path, ["lad", "neighbours"], 5, 2)
-    elsewhere = [c.entry.label for c in cells if c.setting.taught_on]
-    assert elsewhere == ["lad"]
+    elsewhere = [c for c in cells if c.setting.taught_on]
+    assert [c.entry.label for c in elsewhere] == ["lad", "neighbours"]
+    borrowed = [c.run.study.protocol.models["taught elsewhere"] for c in elsewhere]
+    assert [b.path for b in borrowed] == ["right/lad", "right/neighbours"]
+    assert {b.source for b in borrowed} == {"own laps"}
     assert len({c.folder for c in cells}) == len(cells)
 
 
@@ -109,5 +113,6 @@ def test_a_benchmark_stopped_and_enlarged_ends_with_the_same_tables(tmp_path):
         recorded = [Recorded(c.setting.name, c.entry.label, c.folder) for c in cells]
         page, ranks = write_benchmark(tmp_path / name, recorded)
         assert ranks["finished"].iloc[0] == 1.0
+        assert step_costs(cells)["lad-correction"] > 0
         tables.append(hashlib.sha256(page.read_bytes()).hexdigest())
     assert tables[0] == tables[1]

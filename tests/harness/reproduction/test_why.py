@@ -7,9 +7,10 @@ from protocols.shipped_parts import CORRECTION
 
 
 def test_each_explanation_changes_what_it_says_and_nothing_else(tmp_path):
-    """Same seed, same laps; only demonstrator, driver or model differ from the unchanged study."""
+    """Same seed, same laps; only demonstrator, driver, model or laser differ from the unchanged."""
     planned = dict(zip([e.name for e in EXPLANATIONS], why_experiments(tmp_path, 3), strict=True))
-    allowed = ("protocol.name", "protocol.title", "protocol.cohort.", "protocol.model.")
+    allowed = ("protocol.name", "protocol.title", "protocol.cohort.", "protocol.model.",
+               "protocol.laser.model_reach_m")  # fmt: skip
     for explanation in EXPLANATIONS:
         base = planned["shipped" if explanation.study == "rd-laps" else "people"].run
         run = planned[explanation.name].run
@@ -18,16 +19,13 @@ def test_each_explanation_changes_what_it_says_and_nothing_else(tmp_path):
         changed = (
             explanation.demonstrator
             or explanation.driver
-            or explanation.name
-            in (
-                "reach",
-                "correction",
-            )
+            or explanation.name in ("reach", "laser", "neighbours", "correction")
         )
         assert bool([line for line in found if "title" not in line and "name" not in line]) == bool(
             changed
         )
     assert planned["correction"].run.study.protocol.model.use == CORRECTION
+    assert planned["laser"].run.study.protocol.laser.model_reach_m == 2.0
     folders = {e.folder for e in planned.values()}
     assert len(folders) == len(EXPLANATIONS)
 

@@ -232,6 +232,17 @@ def test_scans_come_ten_times_a_second():
     world.close()
 
 
+def test_the_models_laser_may_end_sooner_than_the_laser(world):
+    """Segments end at ``model_reach_m``; drivers' readings and everything else stay as they are."""
+    near = BulletWorld(COURSE, laser=LaserSettings(model_reach_m=2.0))
+    rows, ended = _rows(world, 4, steps=40), _rows(near, 4, steps=40)
+    near.close()
+    segments = slice(rows.shape[1] - 2 - N_SEGMENTS, rows.shape[1] - 2)
+    assert (rows[:, segments] > 2.0).any()
+    rows[:, segments] = np.minimum(rows[:, segments], 2.0)
+    np.testing.assert_array_equal(rows, ended)
+
+
 def test_a_world_must_be_reset_first():
     """Without a start there is nothing to observe."""
     world = BulletWorld(COURSE)

@@ -5,6 +5,9 @@ import sys
 
 import numpy as np
 import pytest
+from sklearn.neighbors import KNeighborsClassifier, KNeighborsRegressor
+from sklearn.pipeline import make_pipeline
+from sklearn.preprocessing import StandardScaler
 
 from lad.assistant import Assistant, Learner
 from lad.baselines import linear, memoryless, neighbours, network
@@ -142,6 +145,26 @@ def test_help_that_was_never_given_is_never_offered(make):
             model.learn(given, Command(0.2, -0.3) if given else None)
         answers, _ = _ask(model, np.random.default_rng(8), n=10)
         assert [a.helping for a in answers] == [helps] * 10
+
+
+def test_neighbours_answer_as_scikit_learns_estimators_do():
+    """The tree is asked directly; p(h) and the command are those of its estimators, bit for bit."""
+    rng = np.random.default_rng(11)
+    (x, helped), commands = _steps(rng, 200), rng.normal(size=(200, 2))
+    model = neighbours.make()
+    model.start_lap()
+    for row, h, command in zip(x, helped, commands.tolist(), strict=True):
+        model.assist(row)
+        model.learn(bool(h), Command(*command) if h else None)
+    when = make_pipeline(StandardScaler(), KNeighborsClassifier(5, algorithm="kd_tree"))
+    how = make_pipeline(StandardScaler(), KNeighborsRegressor(5, algorithm="kd_tree"))
+    when.fit(x, helped)
+    how.fit(x[helped], commands[helped])
+    asked, _ = _steps(rng, 100)
+    model.start_lap()
+    answers = [model.assist(row) for row in asked]
+    assert [a.p_help for a in answers] == when.predict_proba(asked)[:, 1].tolist()
+    assert [list(a.mean) for a in answers] == how.predict(asked).tolist()
 
 
 def test_few_steps_of_help_are_enough_for_neighbours():

@@ -4,9 +4,11 @@ from dataclasses import replace
 from typing import Any
 
 from protocols.files.dump import to_yaml
+from protocols.groups import Group
 from protocols.load import resolve_study
-from protocols.record.identity import differences, study_digest
+from protocols.record.identity import differences, identity, study_digest
 from protocols.resolved import ResolvedStudy
+from protocols.study import LaserSettings
 
 
 def _with(plan: ResolvedStudy, **changes: Any) -> ResolvedStudy:
@@ -58,3 +60,23 @@ def test_the_digest_does_not_depend_on_where_files_were(plan: ResolvedStudy, tmp
     path = tmp_path / "copy.yaml"
     path.write_text(to_yaml(plan.protocol))
     assert study_digest(resolve_study(str(path)), 0) == study_digest(plan, 0)
+
+
+def test_what_came_later_and_is_not_used_is_no_part_of_a_study():
+    """Parameters, of groups' models too, and the laser: at their defaults they are left out."""
+    plan = resolve_study("four-lap-balanced")
+    model = {"use": "lad", "parameters": {"capacity": 200}}
+    grouped = plan.protocol.model_copy(
+        update={"groups": {name: Group.model_validate({"model": model}) for name in ("a", "b")}}
+    )
+    content = identity(replace(plan, protocol=grouped), 0)["protocol"]
+    assert content["laser"] == {"rays": 180, "caster": "sweep"}
+    for parameters in (
+        content["model"]["parameters"],
+        content["groups"]["a"]["model"]["parameters"],
+    ):
+        assert not set(parameters) & {"tune", "prior_help", "memory_laps", "constant_variance"}
+    clipped = grouped.model_copy(update={"laser": LaserSettings(model_reach_m=2.0)})
+    assert study_digest(replace(plan, protocol=clipped), 0) != study_digest(
+        replace(plan, protocol=grouped), 0
+    )
