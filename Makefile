@@ -11,8 +11,8 @@ study: $(VENV)/installed  ## Run the four-lap study with twelve synthetic partic
 live: $(VENV)/installed-live  ## Drive yourself in a browser, helped by the shipped demonstrator
 	$(BIN)/lad-study live drive-yourself --out studies/drive-yourself
 
-test: $(VENV)/installed-test  ## Run every test and check, side by side: tests of living people wait
-	$(MAKE) --no-print-directory --jobs 2 tests check
+test: $(VENV)/installed-test  ## Run every test and check, and build the site, side by side
+	$(MAKE) --no-print-directory --jobs 2 tests check docs
 
 tests: $(VENV)/installed-test
 	$(BIN)/python -m pytest -m "not slow" $(ALL_CORES) --hypothesis-seed 0
@@ -21,7 +21,6 @@ test-long: $(VENV)/installed-test  ## Run the tests that take minutes, and every
 	$(BIN)/python -m pytest -m slow $(ALL_CORES) --hypothesis-seed 0
 	.ci/lowest
 	.ci/rocrate
-	$(MAKE) docs
 
 check: $(VENV)/installed-test
 	$(BIN)/ruff check .
@@ -61,13 +60,13 @@ $(VENV)/installed-live: pyproject.toml | $(BIN)/python
 	touch $@ $(VENV)/installed
 
 $(VENV)/installed-docs: pyproject.toml | $(BIN)/python
-	$(BIN)/python -m pip install --quiet --editable '.[docs,exchange]'
-	touch $@ $(VENV)/installed
+	$(BIN)/python -m pip install --quiet --editable '.[docs,exchange,live]'
+	touch $@ $(VENV)/installed $(VENV)/installed-live
 
 $(VENV)/installed-test: pyproject.toml | $(BIN)/python
-	$(BIN)/python -m pip install --quiet --no-compile --editable '.[test]'
+	$(BIN)/python -m pip install --quiet --no-compile --editable '.[test,docs]'
 	-$(BIN)/python -m compileall -qq -j 0 -x /tests/ $(VENV)/lib  # on all cores; pip uses one
-	touch $@ $(VENV)/installed
+	touch $@ $(VENV)/installed $(VENV)/installed-live $(VENV)/installed-docs
 
 clean:
 	rm -rf $(VENV)

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from analysis.figures.style import BLACK, GREY, VERMILLION, WIDTH, colours, new_figure, tidy
-from analysis.figures.text import label_lines
+from analysis.figures.text import label_lines, label_room
 from analysis.roles import Part
 from analysis.stats.describe import describe
 
@@ -28,8 +28,9 @@ def lap_time_figure(
         The paper's means by condition, s; may be empty.
     """
     # Conditions side by side need room for their means and their names.
-    width = max(WIDTH, 0.9 * len(parts) + 0.8)
-    labels = label_lines([part.condition for part in parts], width - 0.8)
+    names = [part.condition for part in parts]
+    width = max(WIDTH, label_room(names, 0.9) * len(parts) + 0.8)
+    labels = label_lines(names, width - 0.8)
     figure = new_figure(3.85 + 0.15 * max(label.count("\n") + 1 for label in labels), width)
     axes = figure.subplots()
     _lines(axes, laps, parts)

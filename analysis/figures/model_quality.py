@@ -8,11 +8,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from analysis.figures.style import BLACK, GREY, colours, new_figure, say_nothing_to_show, tidy
-from analysis.figures.text import label_lines, wrapped
+from analysis.figures.text import label_lines, label_room, wrapped
 from analysis.roles import Part
 
 _ROOM, _CONDITION = 2.2, 0.8
-"""Least width of the strips, and what each condition takes of it with its median, inches."""
+"""Least width of the strips, and the least that each condition takes of it, inches."""
+
+_MARGINS = 0.4
+"""What the strips have beside their conditions, as conditions."""
+
+_NAMES = 2.2
+"""What the names of the curves take beside the reliability diagram, inches."""
 
 _SPREAD = 0.18
 """How far a condition's points stand to each side of its middle; 1 is the next condition."""
@@ -42,10 +48,12 @@ def model_figure(
             new_figure(3.2, 6.2),
             "No lap has both a model's p(h) and a demonstrator to compare it with.",
         )
-    room = max(_ROOM, _CONDITION * len(shown))
+    names = [part.condition for part in shown]
+    room = max(_ROOM, label_room(names, _CONDITION) * (len(shown) + _MARGINS))
     lines = sum(_name(part).count("\n") + 1 for part in shown)
     aside = len(shown) > _LEGEND  # inside, the names would cover the curves
-    figure = new_figure(max(3.2, 0.17 * lines + 0.6) if aside else 3.2, 4.0 + room)
+    height = max(3.2, 0.17 * lines + 0.6) if aside else 3.2
+    figure = new_figure(height, 4.0 + room + (_NAMES if aside else 0))
     widths = None if room == _ROOM else (room, 3.0)
     left, right = figure.subplots(1, 2, width_ratios=widths)
     _strips(left, known, shown, colours(parts), room)
@@ -89,13 +97,15 @@ def _strips(
         auc = own["when_auc"].to_numpy()
         axes.scatter(own["x"], auc, s=16, color=shades[part.condition], alpha=0.7)
         axes.hlines(np.median(auc), at - 0.28, at + 0.28, color=BLACK, linewidth=2)
-        axes.annotate(f"{np.median(auc):.3f}", (at + 0.3, float(np.median(auc))), fontsize=9,
-                      va="center")  # fmt: skip
+        axes.annotate(f"{np.median(auc):.3f}", (at, float(auc.min())), xytext=(0, -7),
+                      textcoords="offset points", fontsize=9, ha="center", va="top")  # fmt: skip
     axes.axhline(0.5, color=GREY, linewidth=0.8, linestyle=":")
-    axes.set_xticks(range(len(parts)), label_lines([part.condition for part in parts], room))
-    axes.set_xlim(-0.6, len(parts) - 0.2)
+    names = [part.condition for part in parts]
+    for_names = room * len(parts) / (len(parts) + _MARGINS)
+    axes.set_xticks(range(len(parts)), label_lines(names, for_names))
+    axes.set_xlim(-0.5 - _MARGINS / 2, len(parts) - 0.5 + _MARGINS / 2)
     lowest = float(known["when_auc"].min())
-    axes.set_ylim(min(0.45, lowest - 0.05), 1.02)
+    axes.set_ylim(min(0.45, lowest - 0.12), 1.02)
     axes.set_ylabel("when-AUC per lap (bar: median)")
     tidy(axes, grid="y")
 

@@ -18,7 +18,7 @@ from analysis.figures.style import (
     new_figure,
     tidy,
 )
-from analysis.figures.text import label_lines, wrapped
+from analysis.figures.text import label_lines, label_room, wrapped
 
 SHADES = (BLUE, ORANGE, GREEN, PURPLE)
 MARKERS = ("o", "s", "D", "^")
@@ -34,7 +34,8 @@ def times_figure(laps: pd.DataFrame, conditions: Sequence[str], groups: Sequence
     conditions, groups
         From left to right.
     """
-    width = max(WIDTH, 0.55 * len(conditions) * len(groups) + 1.2)
+    column = label_room(conditions, 0.55 * len(groups))
+    width = max(WIDTH, column * len(conditions) + 1.2)
     figure = new_figure(4.0, width)
     axes = figure.subplots()
     points = time_points(laps, conditions, groups)

@@ -1,5 +1,6 @@
 """Text in figures is text: it is drawn as it was written, where there is room for it."""
 
+import re
 import textwrap
 import unicodedata
 import warnings
@@ -9,6 +10,9 @@ from contextlib import contextmanager
 import matplotlib as mpl
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+
+_LETTER = 0.62
+"""How wide a letter of DejaVu Sans is, as a share of the size; 0.6 on the average."""
 
 
 @contextmanager
@@ -54,6 +58,35 @@ def wrapped(text: str, width: int, lines: int | None = None) -> str:
     return "\n".join(textwrap.wrap(text, width, max_lines=lines, placeholder="...") or [""])
 
 
+def label_room(names: Sequence[str], least: float, size: float = 9.0) -> float:
+    """Return how wide each of some labels side by side has to be so that its words stay whole.
+
+    Parameters
+    ----------
+    names
+        From left to right.
+    least
+        Least width of each, inches.
+    size
+        Of the letters, points.
+
+    Returns
+    -------
+    float
+        Inches; words of more than 16 letters are not waited for.
+
+    Examples
+    --------
+    >>> label_room(["limited", "human-assisted"], 0.9)
+    0.9
+    >>> round(label_room(["the demonstrator helps"], 0.9), 2)
+    1.01
+    """
+    words = [word for name in names for word in re.split(r"\s+|(?<=-)", name)]
+    longest = min(max(map(len, words), default=0), 16)
+    return max(least, (longest + 1) * _LETTER * size / 72)
+
+
 def label_lines(names: Sequence[str], inches: float, size: float = 9.0) -> list[str]:
     """Return labels to stand side by side below an axis, broken so that none meets its neighbour.
 
@@ -66,6 +99,5 @@ def label_lines(names: Sequence[str], inches: float, size: float = 9.0) -> list[
     size
         Of the letters, points.
     """
-    # DejaVu Sans is 0.6 times as wide as it is high, on the average.
-    room = int(72 * inches / (max(len(names), 1) * 0.62 * size))
+    room = int(72 * inches / (max(len(names), 1) * _LETTER * size))
     return [wrapped(name, max(room, 3), lines=6) for name in names]

@@ -103,3 +103,16 @@ def test_the_page_keeps_its_style_and_figures(visit, tmp_path):
     rules = "[...document.styleSheets].reduce((n, sheet) => n + sheet.cssRules.length, 0)"
     assert page.evaluate(rules) > 10
     assert [address for address in page.asked if address.startswith("http")] == []
+
+
+def test_a_table_of_twelve_conditions_fits_a_printed_page(visit, tmp_path):
+    """On paper nothing can be scrolled: cells go on in the next line, and no column is cut off."""
+    names = [f"condition {i}" for i in range(12)]
+    frame = pd.DataFrame([dict.fromkeys(["measure", *names], "-20.94 (0.24; 12)")])
+    shown = [Shown(name, lambda row, name=name: row[name]) for name in frame]
+    page = Page("title", "", (Section("a", "a", (table("wide", "", frame, shown),)),))
+    (tmp_path / "page.html").write_text(render(page, {}))
+    tab = visit((tmp_path / "page.html").as_uri())
+    tab.set_viewport_size({"width": 670, "height": 950})  # A4 less its margins
+    tab.emulate_media(media="print")
+    assert tab.locator("table").evaluate("table => table.scrollWidth") <= 670

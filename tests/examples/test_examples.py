@@ -1,16 +1,20 @@
 """The examples run as they stand, and read the exports as they are."""
 
+import io
 import json
-import os
 import re
+import runpy
 import shutil
 import subprocess
 import sys
+from contextlib import chdir, redirect_stderr, redirect_stdout
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import pytest
 
 from analysis.export.write import export_study
+from harness.cli import main
 from harness.running.runner import run_study
 from harness.session.study_run import StudyRun
 from protocols.load import resolve_study
@@ -19,11 +23,7 @@ from protocols.record.reader import open_study
 EXAMPLES = Path(__file__).parents[2] / "examples"
 R = shutil.which("Rscript")
 
-QUICK = {"example_7_published_data"}  # the others take ten seconds to half a minute each
-GALLERY = [
-    pytest.param(path, id=path.stem, marks=[] if path.stem in QUICK else [pytest.mark.slow])
-    for path in sorted(EXAMPLES.glob("example_*.py"))
-]
+GALLERY = sorted(EXAMPLES.glob("example_*.py"))
 
 PROTOCOL = """\
 schema: 1
@@ -99,18 +99,33 @@ def test_the_layouts_topics_are_exported():
     assert panels == set(layout["configById"])
 
 
-@pytest.mark.parametrize("script", GALLERY)
-def test_an_example_of_the_gallery_runs_as_it_stands(script, tmp_path):
+def in_this_process(command, *, cwd=None, check, **_):
+    """Run a command of ours as its own process would, without importing everything once more."""
+    said, complained = io.StringIO(), io.StringIO()
+    kept, sys.argv = sys.argv, [Path(command[0]).name, *command[1:]]
+    try:
+        with chdir(cwd or Path.cwd()), redirect_stdout(said), redirect_stderr(complained):
+            main()
+    except SystemExit as end:
+        code = end.code
+    finally:
+        sys.argv = kept
+    if check and code:
+        raise subprocess.CalledProcessError(code, command, said.getvalue(), complained.getvalue())
+    return subprocess.CompletedProcess(command, code, said.getvalue(), complained.getvalue())
+
+
+@pytest.mark.filterwarnings("default")  # as where a person runs it
+@pytest.mark.parametrize("script", GALLERY, ids=lambda path: path.stem)
+def test_an_example_of_the_gallery_runs_as_it_stands(script, tmp_path, monkeypatch, capsys):
     """From top to bottom, with few people; it shows what its commands print."""
-    environment = {"LAD_STUDY_QUICK": "1", "MPLBACKEND": "agg", "TMPDIR": str(tmp_path)}
-    environment |= {"XDG_STATE_HOME": str(tmp_path / "state")}  # what is trusted is forgotten
-    ended = subprocess.run(  # noqa: S603  # our own example
-        [sys.executable, str(script)],
-        cwd=tmp_path,
-        env={**os.environ, **environment},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert ended.returncode == 0, ended.stderr
-    assert ended.stdout
+    monkeypatch.setenv("LAD_STUDY_QUICK", "1")
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))  # what is trusted is forgotten
+    monkeypatch.setattr(subprocess, "run", in_this_process)
+    monkeypatch.chdir(tmp_path)
+    with plt.rc_context({"backend": "agg"}):
+        names = runpy.run_path(str(script))
+    plt.close("all")
+    if "work" in names:  # the folder that lasts as long as the script
+        names["work"].cleanup()
+    assert capsys.readouterr().out
