@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import pandas as pd
 
 from analysis.measures.collisions import collisions
+from analysis.measures.streams import Steps
 from protocols.exclusion import exclusion_reason
 from protocols.files.errors import InputError
 from protocols.record.reader import Study
@@ -121,7 +122,7 @@ def _contacts(study: Study, who: str, lap: int) -> float:
     try:
         if not study.has_steps(who, lap):
             return float("nan")
-        return collisions(study.steps(who, lap, ["contact"]).to_pandas())
+        return collisions(Steps(study.steps(who, lap, ["contact"])))
     except InputError:  # a damaged step table is named where the steps are read
         return float("nan")
 

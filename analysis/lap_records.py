@@ -12,9 +12,9 @@ import pyarrow as pa
 import pyarrow.compute as pc
 from numpy.typing import NDArray
 
-from analysis.frames import StudyFrames, as_frame, within
+from analysis.frames import StudyFrames, within
 from analysis.measures.registry import MEASURES
-from analysis.measures.streams import Steps, at_hand, gaps, helped, stream
+from analysis.measures.streams import Steps, gaps, helped, recorded, stream
 from analysis.processes import HERE, Processes
 from protocols.files.errors import InputError
 from protocols.record.elsewhere.placement import Placement, said_of
@@ -187,27 +187,25 @@ def _read(study: Study, places: Sequence[_Where]) -> _Piece:
         if not len(steps):
             laps.append(_Lap(row, gaps=remarks))
             continue
-        unrecorded = [name for name in unrecorded if steps[name].isna().all()]
-        with at_hand(steps):
-            row |= {m.name: m.of(steps) for m in MEASURES}
-            kept = _kept(steps, participant, lap, condition, placement)
-            elsewhere = None if placement.on_course else placement
-            laps.append(_Lap(row, kept, (*remarks, *gaps(steps)), elsewhere))
+        unrecorded = [name for name in unrecorded if not recorded(steps, name)]
+        row |= {m.name: m.of(steps) for m in MEASURES}
+        kept = _kept(steps, participant, lap, condition, placement)
+        elsewhere = None if placement.on_course else placement
+        laps.append(_Lap(row, kept, (*remarks, *gaps(steps)), elsewhere))
     return _Piece(laps, unrecorded)
 
 
 def _steps(study: Study, participant: str, lap: int) -> tuple[Steps, tuple[str, ...], Placement]:
-    """Return a lap's steps and what was found about them; an empty frame without a record.
+    """Return a lap's steps and what was found about them; no step without a record.
 
     Distances between positions that are not in metres are no distances: those are left out.
     """
     if not study.has_steps(participant, lap):
-        return pd.DataFrame(), (), Placement(on_course=True)
+        return Steps(pa.table({})), (), Placement(on_course=True)
     table, remarks, placement = study.lap_steps(participant, lap)
-    steps = as_frame(table)
     if not (placement.on_course or placement.metres):
-        steps = steps.assign(x_m=np.nan, y_m=np.nan)
-    return steps, remarks, placement
+        table = table.drop_columns(["x_m", "y_m"])
+    return Steps(table), remarks, placement
 
 
 def _kept(steps: Steps, participant: str, lap: int, condition: str, placement: Placement) -> _Kept:
@@ -217,10 +215,7 @@ def _kept(steps: Steps, participant: str, lap: int, condition: str, placement: P
     if not placement.on_course:
         numbers |= {"x_m": unknown, "y_m": unknown}
     numbers["helped"] = (unknown if on is None else on).astype(np.float32)
-    words = {
-        name: pa.array(steps[name], type=pa.string(), from_pandas=True).dictionary_encode()
-        for name in WORDS
-    }
+    words = {name: steps.columns[name].combine_chunks().dictionary_encode() for name in WORDS}
     return _Kept(participant, lap, condition, numbers, words)
 
 

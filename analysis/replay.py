@@ -11,7 +11,6 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
-import pandas as pd
 import pyarrow.compute as pc
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -28,7 +27,7 @@ from analysis.film import Encoder, gif, mp4, require_encoder
 from analysis.frames import as_frame
 from analysis.lap_pages.lap_data import LapOf, lap_data, lap_of
 from analysis.lap_pages.page import render_laps
-from analysis.measures.streams import Numbers, Steps, stream
+from analysis.measures.streams import Numbers, Steps, stream, words
 from lad.inputs import N_SEGMENTS
 from protocols.course.schema import Course
 from protocols.files.errors import InputError
@@ -120,7 +119,7 @@ def _encoder(out: Path) -> Encoder | None:
 
 def _found(study: Study, participant: str, lap: int) -> _Found:
     table, _, placement = study.lap_steps(participant, lap, against_lap=False)
-    steps = as_frame(table)
+    steps = Steps(table)
     where = f"{study.folder}: {participant}, lap {lap}"
     if len(steps) < 2:
         raise InputError(f"{where}: too short to draw; needs 2 steps")
@@ -267,7 +266,7 @@ class _Stage:
         _chart(chart, steps)
         self._xy = np.column_stack([stream(steps, "x_m"), stream(steps, "y_m")])
         self._links = np.stack([self._xy[:-1], self._xy[1:]], axis=1)
-        self._colours = [CONTROL.get(c, BLACK) for c in steps["control"].fillna("?")][1:]
+        self._colours = [CONTROL.get(c, BLACK) for c in words(steps, "control")][1:]
         self._heading = np.nan_to_num(stream(steps, "heading_rad"))
         self._beams = np.column_stack(
             [stream(steps, f"segment_{i:02d}") for i in range(N_SEGMENTS)]
@@ -312,8 +311,9 @@ def _movers(plan: Axes, chart: Axes) -> _Moving:
     return _Moving(trail, chair, laser, clock, label)
 
 
-def _legend(axes: Axes, steps: pd.DataFrame) -> None:
-    there = [name for name in CONTROL if (steps["control"] == name).any()]
+def _legend(axes: Axes, steps: Steps) -> None:
+    given = set(words(steps, "control"))
+    there = [name for name in CONTROL if name in given]
     lines = [Line2D([], [], color=CONTROL[name], linewidth=2.2) for name in there]
     if lines:
         axes.legend(lines, there, title="in control", loc="lower right", fontsize=8,

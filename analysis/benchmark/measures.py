@@ -9,7 +9,7 @@ import pandas as pd
 
 from analysis.measures.discrimination import brier_score
 from analysis.measures.episodes import episodes
-from analysis.measures.streams import Steps, stream
+from analysis.measures.streams import Steps, stream, words
 from protocols.benchmark import ALONE, DEMONSTRATION, TEST
 from protocols.record.reader import Study
 
@@ -70,9 +70,9 @@ def _of_participant(
     demonstrator = float(shown["duration_s"].mean())
     alone = float(laps.loc[laps["condition"] == ALONE, "duration_s"].mean())
     for _, lap in laps[laps["assistant"] == "model"].iterrows():
-        steps = study.steps(participant, int(lap["lap"])).to_pandas()
+        steps = Steps(study.steps(participant, int(lap["lap"])))
         later = shown.loc[shown["lap"] > lap["lap"], "lap"]
-        following = study.steps(participant, int(later.iloc[0])).to_pandas() if len(later) else None
+        following = Steps(study.steps(participant, int(later.iloc[0]))) if len(later) else None
         yield {
             "participant": participant,
             "demonstrations": int(str(lap["condition"]).split()[-1]),
@@ -87,10 +87,10 @@ def _of_participant(
 
 
 def _in_its_own(steps: Steps, free_side: str | None) -> dict[str, float]:
-    helping = np.asarray(steps["control"] == "model")
+    helping = words(steps, "control") == "model"
     period = float(np.median(np.diff(stream(steps, "t_s"))))
     lengths = [(stop - start) * period for start, stop in episodes(helping)]
-    free = steps["section_kind"].isin({"soft_right", free_side}).to_numpy()
+    free = np.isin(words(steps, "section_kind"), np.array(["soft_right", free_side], object))
     return {
         "chatter": float(sum(length < CHATTER_S - 1e-9 for length in lengths)),
         "brier_own": brier_score(steps),

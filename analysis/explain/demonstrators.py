@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from analysis.measures.episodes import episodes
-from analysis.measures.streams import Steps, stream
+from analysis.measures.streams import Steps, stream, words
 from analysis.stats.mean_difference import mean_difference
 from protocols.record.reader import Study
 from protocols.study import StudyProtocol
@@ -56,7 +56,7 @@ def demonstrated(study: Study, participants: tuple[str, ...] | None = None) -> p
         if condition is None or condition.assistant != "demonstrator":
             continue  # in a lap of corrections help is given only where the model fell short
         who = {"participant": lap["participant"], "demonstrator": condition.demonstrator}
-        steps = study.steps(lap["participant"], int(lap["lap"])).to_pandas()
+        steps = Steps(study.steps(lap["participant"], int(lap["lap"])))
         rows += [who | {"lap": lap["lap"]} | row for row in _by_section(steps)]
     columns = ["participant", "demonstrator", "lap", "section", *MEASURES]
     return pd.DataFrame(rows, columns=columns)
@@ -64,7 +64,7 @@ def demonstrated(study: Study, participants: tuple[str, ...] | None = None) -> p
 
 def _by_section(steps: Steps) -> Iterator[dict[str, float | str]]:
     helped = stream(steps, "h") > 0
-    section = steps["section"].to_numpy(dtype=object)
+    section = words(steps, "section")
     arc = stream(steps, "arc_m")
     begins: dict[object, float] = {}
     for start, _ in episodes(helped):

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from analysis.measures.streams import Numbers, Steps, stream
+from analysis.measures.streams import Numbers, Steps, stream, words
 from lad.inputs import N_SEGMENTS
 from protocols.course.gates import GateCounter
 from protocols.course.schema import Course
@@ -149,7 +149,7 @@ def _gates(steps: Steps, course: Course) -> list[int]:
     return found
 
 
-def _runs(steps: pd.DataFrame) -> list[list[Any]]:
+def _runs(steps: Steps) -> list[list[Any]]:
     """Return who was in control: [first step, word] of each run."""
-    words = steps["control"].fillna("?").tolist()
-    return [[i, word] for i, word in enumerate(words) if i == 0 or word != words[i - 1]]
+    control = ["?" if word is None else word for word in words(steps, "control")]
+    return [[i, word] for i, word in enumerate(control) if i == 0 or word != control[i - 1]]

@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 from typing import Any
 
-from analysis.frames import as_frame
 from analysis.lap_pages.lap_data import LapOf, lap_data, lap_label, lap_of
 from analysis.lap_pages.page import render_laps
+from analysis.measures.streams import Steps
 from analysis.results import StudyResults
 from protocols.files.errors import InputError
 
@@ -74,4 +74,4 @@ def _data(results: StudyResults, one: LapOf) -> Iterator[dict[str, Any]]:
         table, _, _ = study.lap_steps(one.participant, one.lap, against_lap=False)
     except InputError:  # damaged: the report says so
         return
-    yield lap_data(one, as_frame(table), study.course_of(one.participant))
+    yield lap_data(one, Steps(table), study.course_of(one.participant))

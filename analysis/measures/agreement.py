@@ -1,6 +1,7 @@
 """Whether user and assistant wanted the same movement."""
 
 import numpy as np
+import pyarrow.compute as pc
 
 from analysis.measures.streams import Numbers, Steps, command, helped, once_per_lap
 
@@ -42,5 +43,5 @@ def _cosines(steps: Steps) -> Numbers:
 
 def _assistant(steps: Steps) -> Numbers:
     """Return whether the demonstrator's or the model's command helped."""
-    by_model = (steps["control"] == "model").to_numpy()[:, None]
+    by_model = pc.equal(steps.columns["control"], "model").to_numpy()[:, None]
     return np.where(by_model, command(steps, "mean"), command(steps, "a"))

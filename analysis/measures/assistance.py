@@ -1,7 +1,6 @@
 """How much help there was, and in how many pieces."""
 
-from analysis.measures.episodes import episodes
-from analysis.measures.streams import Steps, helped, period
+from analysis.measures.streams import Steps, helped, period, stretches_of_help
 
 
 def assisted_fraction(steps: Steps) -> float:
@@ -12,14 +11,13 @@ def assisted_fraction(steps: Steps) -> float:
 
 def interventions(steps: Steps) -> float:
     """Return the number of unbroken stretches of assistance."""
-    on = helped(steps)
-    return float("nan") if on is None else float(len(episodes(on)))
+    stretches = stretches_of_help(steps)
+    return float("nan") if stretches is None else float(len(stretches))
 
 
 def intervention_duration(steps: Steps) -> float:
     """Return the mean duration of an intervention, in s; NaN without one."""
-    on = helped(steps)
-    stretches = [] if on is None else episodes(on)
+    stretches = stretches_of_help(steps)
     if not stretches:
         return float("nan")
     return sum(e.stop - e.start for e in stretches) * period(steps) / len(stretches)

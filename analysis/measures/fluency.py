@@ -3,10 +3,20 @@
 The human acts while the stick is deflected, the robot acts while an assistant's command counts.
 """
 
+from collections.abc import Iterator, Sequence
+
 import numpy as np
 
 from analysis.measures.episodes import Episode, episodes
-from analysis.measures.streams import Flags, Steps, command, helped, period
+from analysis.measures.streams import (
+    Flags,
+    Steps,
+    command,
+    helped,
+    once_per_lap,
+    period,
+    stretches_of_help,
+)
 
 DEAD_BAND = 0.05
 """Share of full deflection below which the stick counts as at rest."""
@@ -44,28 +54,28 @@ def functional_delay(steps: Steps) -> float:
         Below 0 when they act at once; NaN without a hand-over, or where time does not increase
         from step to step: then it is unknown who acted first.
     """
-    human, robot = _human(steps), helped(steps)
+    human, robot = _human(steps), stretches_of_help(steps)
     if human is None or robot is None or np.isnan(period(steps)):
         return float("nan")
-    actions = sorted(
-        [(e, "human") for e in episodes(human)] + [(e, "robot") for e in episodes(robot)]
-    )
-    delays = [delay for i in range(len(actions)) if (delay := _delay(actions, i)) is not None]
+    actions = sorted([(e, "human") for e in episodes(human)] + [(e, "robot") for e in robot])
+    delays = list(_delays(actions))
     return sum(delays) / len(human) if delays else float("nan")
 
 
-def _delay(actions: list[tuple[Episode, str]], i: int) -> int | None:
-    """Return the steps from the other agent's last action to action i; None without a hand-over."""
-    (episode, who), before = actions[i], actions[:i]
-    others = [other for other, by in before if by != who]
-    if not others:
-        return None
-    overlap = min(others[-1].stop, episode.stop) - episode.start
-    if overlap > 0:
-        return -overlap
-    return -overlap if before[-1][1] != who else None
+def _delays(actions: Sequence[tuple[Episode, str]]) -> Iterator[int]:
+    """Yield the steps from the other agent's last action to each action that is a hand-over."""
+    last: dict[str, Episode] = {}
+    before = ""
+    for episode, who in actions:
+        other = last.get("robot" if who == "human" else "human")
+        if other is not None:
+            overlap = min(other.stop, episode.stop) - episode.start
+            if overlap > 0 or before != who:
+                yield -overlap
+        last[who], before = episode, who
 
 
+@once_per_lap
 def _human(steps: Steps) -> Flags | None:
     size = np.linalg.norm(command(steps, "intent"), axis=1)
     if len(size) == 0 or np.isnan(size).any():

@@ -10,8 +10,8 @@ def path_length(steps: Steps) -> float:
 
     Examples
     --------
-    >>> import pandas as pd
-    >>> path_length(pd.DataFrame({"x_m": [0.0, 3.0, 3.0], "y_m": [0.0, 0.0, 4.0]}))
+    >>> import pyarrow as pa
+    >>> path_length(Steps(pa.table({"x_m": [0.0, 3.0, 3.0], "y_m": [0.0, 0.0, 4.0]})))
     7.0
     """
     if len(steps) < 2:

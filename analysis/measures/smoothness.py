@@ -34,7 +34,7 @@ def sparc(steps: Steps, who: str) -> float:
     """
     speed = np.linalg.norm(command(steps, who), axis=1)
     dt = period(steps)
-    if len(speed) < 3 or np.isnan([*speed, dt]).any() or not speed.any():
+    if len(speed) < 3 or np.isnan(speed).any() or np.isnan(dt) or not speed.any():
         return float("nan")
     return spectral_arc_length(speed, 1 / dt)
 

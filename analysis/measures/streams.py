@@ -1,23 +1,23 @@
 """A lap's steps as measures use them: streams of numbers, missing where nothing was recorded."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
-from functools import wraps
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property, wraps
 from typing import Any, Concatenate, ParamSpec, TypeVar, cast
 
 import numpy as np
-import pandas as pd
+import pyarrow as pa
+import pyarrow.compute as pc
 from numpy.typing import NDArray
 
+from analysis.measures.episodes import Episode, episodes
 from protocols.record.steps import STEP_COLUMNS
 from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
 
-Steps = pd.DataFrame
-"""One lap's step table (``protocols.record.steps``), one row per control step."""
-
 BOUNDS = {"p_help": (0.0, 1.0)}
 """Columns whose numbers have a lowest and a highest; what lies outside counts as missing."""
+
+_MEASURED = tuple(c.name for c in STEP_COLUMNS if pa.types.is_floating(c.type))
 
 Numbers = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -25,37 +25,42 @@ Flags = NDArray[np.bool_]
 P = ParamSpec("P")
 R = TypeVar("R")
 
-_AT_HAND: ContextVar[tuple[Steps, dict[Any, Any]] | None] = ContextVar("at_hand", default=None)
-"""The step table that is being measured, and what has been worked out of it."""
 
+@dataclass(frozen=True, eq=False)
+class Steps:
+    """One lap's steps, one row per control step.
 
-@contextmanager
-def at_hand(steps: Steps) -> Iterator[None]:
-    """Have a lap's streams worked out once each meanwhile, however many measures ask for them.
-
-    The measures give the same without it. The step table must not change meanwhile.
+    Attributes
+    ----------
+    table
+        With columns of ``protocols.record.steps``, as ``Study.steps`` returns it.
+    known
+        What has been worked out of it: each thing once, however many measures ask for it.
     """
-    token = _AT_HAND.set((steps, {}))
-    try:
-        yield
-    finally:
-        _AT_HAND.reset(token)
+
+    table: pa.Table
+    known: dict[Any, Any] = field(default_factory=dict, init=False, repr=False)
+
+    def __len__(self) -> int:
+        return int(self.table.num_rows)
+
+    @cached_property
+    def columns(self) -> Mapping[str, pa.ChunkedArray]:
+        """The columns by name."""
+        return dict(zip(self.table.column_names, self.table.columns, strict=True))
 
 
 def once_per_lap(
     function: Callable[Concatenate[Steps, P], R],
 ) -> Callable[Concatenate[Steps, P], R]:
-    """Keep what a function of a step table answers while the table is at hand."""
+    """Have a function of a lap's steps keep its answer with them; nobody may change that."""
 
     @wraps(function)
     def answer(steps: Steps, *args: P.args, **kwargs: P.kwargs) -> R:
-        now = _AT_HAND.get()
-        if now is None or now[0] is not steps:
-            return function(steps, *args, **kwargs)
-        known, key = now[1], (function, args, tuple(kwargs.items()))
-        if key not in known:
-            known[key] = function(steps, *args, **kwargs)
-        kept: R = known[key]
+        key = (function, args, tuple(kwargs.items()))
+        if key not in steps.known:
+            steps.known[key] = function(steps, *args, **kwargs)
+        kept: R = steps.known[key]
         return kept
 
     return cast("Callable[Concatenate[Steps, P], R]", answer)
@@ -68,7 +73,9 @@ def stream(steps: Steps, name: str) -> Numbers:
     What is missing, infinite, or out of its ``BOUNDS`` is NaN: no measure ever sees it.
     """
     values = _as_recorded(steps, name)
-    wrong = np.isinf(values) | _out_of_bounds(values, name)
+    wrong = np.isinf(values)
+    if name in BOUNDS:
+        wrong |= _out_of_bounds(values, name)
     return np.where(wrong, np.nan, values) if wrong.any() else values
 
 
@@ -86,28 +93,34 @@ def period(steps: Steps) -> float:
     return float(np.median(passed)) if len(passed) and (passed > 0).all() else float("nan")
 
 
+def words(steps: Steps, name: str) -> NDArray[np.object_]:
+    """Return a column of words, None where missing; a KeyError when there is no such column."""
+    return np.asarray(steps.columns[name].to_numpy(), dtype=object)
+
+
+def recorded(steps: Steps, name: str) -> bool:
+    """Tell whether any step has a value in a column."""
+    column = steps.columns.get(name)
+    return column is not None and not pc.all(pc.is_null(column, nan_is_null=True)).as_py()
+
+
 def gaps(steps: Steps) -> tuple[str, ...]:
     """Name what cannot be used of a lap's steps although it was recorded, and the consequence.
 
     Examples
     --------
-    >>> gaps(pd.DataFrame({"p_help": [0.5, 7.0]}))
+    >>> gaps(Steps(pa.table({"p_help": [0.5, 7.0]})))
     ('p_help is not between 0 and 1 in some steps: missing there',)
     """
     return tuple(_gaps(steps))
 
 
 def _gaps(steps: Steps) -> Iterator[str]:
-    dtypes = steps.dtypes
-    names = [c.name for c in STEP_COLUMNS if dtypes.get(c.name) == np.float64]
-    infinite = np.isinf(steps[names].to_numpy()).any(axis=0)
-    for name, somewhere in zip(names, infinite, strict=True):
-        if somewhere:
-            yield f"{name} is infinite in some steps: missing there"
-        if name not in BOUNDS:
-            continue
+    for name in _MEASURED:
         values = _as_recorded(steps, name)
-        if _out_of_bounds(values[np.isfinite(values)], name).any():
+        if np.isinf(values).any():
+            yield f"{name} is infinite in some steps: missing there"
+        if name in BOUNDS and _out_of_bounds(values[np.isfinite(values)], name).any():
             low, high = BOUNDS[name]
             yield f"{name} is not between {low:g} and {high:g} in some steps: missing there"
     t = stream(steps, "t_s")
@@ -115,27 +128,34 @@ def _gaps(steps: Steps) -> Iterator[str]:
         yield ("t_s does not increase from step to step: measures that need the time are missing")
 
 
+@once_per_lap
 def _as_recorded(steps: Steps, name: str) -> Numbers:
-    if name not in steps:
+    column = steps.columns.get(name)
+    if column is None:
         return np.full(len(steps), np.nan)
-    column = steps[name]
-    if column.dtype == np.float64:
-        return column.to_numpy()
-    return pd.to_numeric(column).to_numpy(dtype=np.float64, na_value=np.nan)
+    floats = column if pa.types.is_float64(column.type) else column.cast(pa.float64())
+    return np.asarray(floats.to_numpy())
 
 
 def _out_of_bounds(values: Numbers, name: str) -> Flags:
-    low, high = BOUNDS.get(name, (-np.inf, np.inf))
+    low, high = BOUNDS[name]
     return np.asarray((values < low) | (values > high))
 
 
 @once_per_lap
 def helped(steps: Steps) -> Flags | None:
     """Return in which steps an assistant's command counted; None when control was not recorded."""
-    if "control" not in steps or len(steps) == 0:
+    control = steps.columns.get("control")
+    if control is None or len(steps) == 0 or control.null_count:
         return None
-    control = steps["control"].to_numpy(dtype=object)
-    return None if pd.isna(control).any() else np.asarray(control != "driver", dtype=np.bool_)
+    return np.asarray(pc.not_equal(control, "driver").to_numpy())
+
+
+@once_per_lap
+def stretches_of_help(steps: Steps) -> list[Episode] | None:
+    """Return the unbroken stretches of assistance; None when control was not recorded."""
+    on = helped(steps)
+    return None if on is None else episodes(on)
 
 
 @once_per_lap

@@ -1,10 +1,16 @@
 """When help came, measured against what the shadow demonstrator would have done."""
 
 import math
-from collections.abc import Iterator
 
 from analysis.measures.episodes import Episode, episodes
-from analysis.measures.streams import Steps, helped, period, would_help
+from analysis.measures.streams import (
+    Steps,
+    helped,
+    once_per_lap,
+    period,
+    stretches_of_help,
+    would_help,
+)
 
 EARLIEST = 3.0
 """Help that ended earlier than this before the demonstrator's onset has another cause, s."""
@@ -33,7 +39,7 @@ def missed_onsets(steps: Steps) -> float:
     float
         NaN when the demonstrator would never have helped, or the times are unknown.
     """
-    leads = list(_leads(steps))
+    leads = _leads(steps)
     return sum(lead is None for lead in leads) / len(leads) if leads else float("nan")
 
 
@@ -45,18 +51,18 @@ def needless_time(steps: Steps) -> float:
     return float((on & ~wanted).sum() * period(steps))
 
 
-def _leads(steps: Steps) -> Iterator[float | None]:
-    """Yield the lead at each of the demonstrator's onsets; None where no help came."""
-    on, wanted = helped(steps), would_help(steps)
-    if on is None or wanted is None:
-        return
-    dt = period(steps)
-    if math.isnan(dt):
-        return
-    given = episodes(on)
-    for onset in episodes(wanted):
-        match = _first_help(given, onset, EARLIEST / dt)
-        yield None if match is None else (onset.start - match.start) * dt
+@once_per_lap
+def _leads(steps: Steps) -> list[float | None]:
+    """Return the lead at each of the demonstrator's onsets; None where no help came."""
+    given, wanted, dt = stretches_of_help(steps), would_help(steps), period(steps)
+    if given is None or wanted is None or math.isnan(dt):
+        return []
+    onsets = episodes(wanted)
+    matches = [_first_help(given, onset, EARLIEST / dt) for onset in onsets]
+    return [
+        None if match is None else (onset.start - match.start) * dt
+        for onset, match in zip(onsets, matches, strict=True)
+    ]
 
 
 def _first_help(given: list[Episode], onset: Episode, reach: float) -> Episode | None:

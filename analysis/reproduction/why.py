@@ -8,7 +8,7 @@ import pandas as pd
 
 from analysis.measures.discrimination import when_auc
 from analysis.measures.episodes import episodes
-from analysis.measures.streams import period, stream
+from analysis.measures.streams import Steps, period, stream
 from analysis.report.blocks import Paragraph, Section, Shown, table
 from analysis.report.numbers import count, number
 from analysis.reproduction.anticipation import RISEN
@@ -83,7 +83,7 @@ def _foreseen(study: Study, laps: pd.DataFrame) -> dict[str, float]:
     second = laps[laps["condition"] == FURTHER].groupby("participant", sort=False)["lap"].min()
     aucs, risen = [], []
     for participant, lap in second.items():
-        steps = study.steps(str(participant), int(lap)).to_pandas()
+        steps = Steps(study.steps(str(participant), int(lap)))
         aucs.append(when_auc(steps))
         p = stream(steps, "p_help")
         before = max(1, round(0.1 / period(steps)))

@@ -261,10 +261,10 @@ def make_study(tmp_path: Path) -> Callable[..., Study]:
 
 
 @pytest.fixture
-def steps(study: Study) -> pd.DataFrame:
-    """Return the steps of a lap that the model helped."""
-    frame: pd.DataFrame = study.steps("P0001", 4).to_pandas()
-    return frame
+def steps(study: Study) -> dict[str, np.ndarray]:
+    """Return the columns of the steps of a lap that the model helped."""
+    table = study.steps("P0001", 4)
+    return {name: table[name].to_numpy().copy() for name in table.column_names}
 
 
 @pytest.fixture(scope="session")

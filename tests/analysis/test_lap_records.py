@@ -9,8 +9,7 @@ from analysis import lap_records
 from analysis.frames import study_frames
 from analysis.lap_records import read_laps
 from analysis.measures.path_length import path_length
-from analysis.measures.registry import MEASURES
-from analysis.measures.streams import at_hand
+from analysis.measures.streams import Steps
 from analysis.processes import processes
 
 
@@ -20,7 +19,7 @@ def test_every_analysed_lap_is_measured_once(study):
     measures = read_laps(frames).measures
     assert len(measures) == len(frames.laps)
     row = measures[(measures["participant"] == "P0003") & (measures["lap"] == 2)].iloc[0]
-    assert row["path_length_m"] == path_length(study.steps("P0003", 2).to_pandas())
+    assert row["path_length_m"] == path_length(Steps(study.steps("P0003", 2)))
 
 
 def test_measures_agree_with_the_recorded_lap_table(study):
@@ -114,11 +113,3 @@ def test_several_processes_read_what_one_reads(study, monkeypatch):
     pd.testing.assert_frame_equal(one.measures, two.measures)
     pd.testing.assert_frame_equal(one.steps, two.steps)
     assert (one.gaps, one.unrecorded) == (two.gaps, two.unrecorded)
-
-
-def test_what_is_worked_out_once_is_what_each_measure_would_work_out(study):
-    """A measure of a step table at hand says what it says of the table alone."""
-    steps = study.steps("P0001", 4).to_pandas()
-    with at_hand(steps):
-        together = [m.of(steps) for m in MEASURES]
-    np.testing.assert_array_equal(together, [m.of(steps) for m in MEASURES])

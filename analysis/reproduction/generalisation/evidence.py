@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 from analysis.frames import StudyFrames, as_frame, study_frames
-from analysis.measures.streams import helped
+from analysis.measures.streams import Steps, helped
 from analysis.reproduction.lessons import STUDIES
 from analysis.reproduction.robustness.evidence import ROBUSTNESS, lap_times
 from protocols.course.centreline import Centreline
@@ -96,9 +96,11 @@ def _shares(frames: StudyFrames, condition: str) -> pd.DataFrame:
 
 
 def _lap_shares(frames: StudyFrames, participant: str, lap: int) -> Iterable[dict[str, object]]:
-    steps = as_frame(frames.study.steps(participant, lap))
-    on = helped(steps)
-    known = steps.assign(on=False if on is None else on, would=steps["h_would"] > 0)
+    steps = frames.study.steps(participant, lap)
+    on = helped(Steps(steps))
+    known = as_frame(steps).assign(
+        on=False if on is None else on, would=lambda known: known["h_would"] > 0
+    )
     for kind, here in known.groupby("section_kind", sort=False, observed=True):
         yield {
             "participant": participant,

@@ -50,7 +50,7 @@ def conform(
         row.
     """
     table, remarks = _once(table, path)
-    there = set(table.column_names)
+    there = dict(zip(table.column_names, table.columns, strict=True))
     absent = [name for name in rules.required if name not in there]
     if absent:
         raise InputError(
@@ -61,21 +61,21 @@ def conform(
         if columns is not None and column.name not in columns:
             continue
         if column.name in there:
-            array = converted(table[column.name], column, path, clock=column.name in rules.clocks)
+            array = converted(there[column.name], column, path, clock=column.name in rules.clocks)
             _check_missing(array, column, rules, path)
         else:
             array = pa.chunked_array([pa.nulls(len(table), column.type)])
         arrays.append(array)
         fields.append(pa.field(column.name, column.type, array.null_count > 0 or column.nullable))
     ours = {column.name for column in rules.columns}
-    for name in table.column_names:
+    for name, array in there.items():
         if name in ours or (columns is not None and name not in columns):
             continue
-        if _is_simple(table.schema.field(name).type):
-            arrays.append(table[name])
+        if _is_simple(array.type):
+            arrays.append(array)
             fields.append(table.schema.field(name).remove_metadata())
         else:
-            remarks += (f"{path.name}: column {name} is {table[name].type}; it is left out",)
+            remarks += (f"{path.name}: column {name} is {array.type}; it is left out",)
     ready = pa.Table.from_arrays(arrays, schema=pa.schema(fields))
     _check_ranges(ready, rules, path)
     ready, repeated = one_row_each(ready, rules, path)
@@ -84,6 +84,8 @@ def conform(
 
 def _once(table: pa.Table, path: Path) -> tuple[pa.Table, tuple[str, ...]]:
     """Return the table with every column once; refuse two of one name that differ."""
+    if len(set(table.column_names)) == table.num_columns:
+        return table, ()
     remarks: list[str] = []
     again = [name for name, n in Counter(table.column_names).items() if n > 1]
     for name in again:

@@ -6,11 +6,13 @@ import re
 from itertools import pairwise
 
 import numpy as np
+import pyarrow as pa
 import pytest
 
 from analysis.lap_pages import study_page as pages
 from analysis.lap_pages.lap_data import LapOf, lap_data, packed
 from analysis.lap_pages.page import render_laps
+from analysis.measures.streams import Steps
 from analysis.results import analyse
 from protocols.course.gates import GateCounter
 
@@ -35,10 +37,12 @@ def results(study):
 
 def test_a_page_has_every_step_of_the_record(study, steps):
     """To its resolution; who is in control, and the gates, as the world counts them."""
-    data = lap_data(LapOf("P0001", 4, "m", completed=True, time_s=40.0), steps, study.course)
-    assert data["steps"] == len(steps)
+    data = lap_data(
+        LapOf("P0001", 4, "m", completed=True, time_s=40.0), Steps(pa.table(steps)), study.course
+    )
+    assert data["steps"] == len(steps["t_s"])
     for name, kept in data["streams"].items():
-        recorded = steps[name].to_numpy(dtype=np.float64)
+        recorded = steps[name].astype(np.float64)
         if name == "heading_rad":
             recorded = np.arctan2(np.sin(recorded), np.cos(recorded))
         assert unpacked(kept) == pytest.approx(recorded, abs=0.51 * kept[0], nan_ok=True)
@@ -46,7 +50,7 @@ def test_a_page_has_every_step_of_the_record(study, steps):
     control = [word for _, word in data["control"]]
     assert all(one != other for one, other in pairwise(control))
     counter = GateCounter(study.course)
-    places = steps[["x_m", "y_m"]].to_numpy().tolist()
+    places = np.column_stack([steps["x_m"], steps["y_m"]]).tolist()
     for before, after in pairwise(places):
         counter.advance(tuple(before), tuple(after))
     assert len(data["gates"]) == counter.passed
@@ -86,7 +90,8 @@ def test_a_large_study_is_held_in_part_whole_people_at_a_time(results, monkeypat
 def test_what_a_study_calls_things_cannot_end_the_data(study, steps):
     """No tag, whatever a condition is called; and the page needs nothing from elsewhere."""
     hostile = "</script><script>window.hit = 1</script>"
-    lap = lap_data(LapOf("P0001", 4, hostile, completed=True, time_s=1.0), steps, study.course)
+    of = LapOf("P0001", 4, hostile, completed=True, time_s=1.0)
+    lap = lap_data(of, Steps(pa.table(steps)), study.course)
     html = render_laps(hostile, [study.course], [lap], [lap["key"]], points=[lap])
     assert html.count("<script") == 2
     assert held(html)["laps"][0]["condition"] == hostile

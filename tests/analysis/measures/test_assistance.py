@@ -1,12 +1,13 @@
 """How much help, when, and whether user and assistant wanted the same."""
 
 import numpy as np
-import pandas as pd
+import pyarrow as pa
 import pytest
 
 from analysis.measures.agreement import agreement, opposition
 from analysis.measures.assistance import assisted_fraction, intervention_duration, interventions
 from analysis.measures.collisions import collisions, contact_time
+from analysis.measures.streams import Steps
 from analysis.measures.timing import missed_onsets, needless_time, onset_lead
 from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
 
@@ -14,11 +15,10 @@ from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
 def lap(helped, wanted=None):
     """Return steps with help and the demonstrator's wish given as strings of 0 and 1."""
     on = np.array([c == "1" for c in helped])
-    frame = pd.DataFrame({"t_s": np.arange(len(on)) * 0.1})
-    frame["control"] = np.where(on, "model", "driver")
+    columns = {"t_s": np.arange(len(on)) * 0.1, "control": np.where(on, "model", "driver")}
     if wanted is not None:
-        frame["h_would"] = [1 if c == "1" else -1 for c in wanted]
-    return frame
+        columns["h_would"] = [1 if c == "1" else -1 for c in wanted]
+    return Steps(pa.table(columns))
 
 
 def test_interventions_are_counted_timed_and_shared():
@@ -57,16 +57,15 @@ def test_needless_help_is_help_the_demonstrator_would_not_give():
 def commands(user, assistant):
     """Return one helped step per pair of commands in shares of full deflection."""
     user, assistant = np.array(user), np.array(assistant)
-    return pd.DataFrame(
-        {
-            "t_s": np.arange(len(user)) * 0.1,
-            "control": "demonstrator",
-            "intent_v": user[:, 0] * MAX_SPEED,
-            "intent_w": user[:, 1] * MAX_TURN_RATE,
-            "a_v": assistant[:, 0] * MAX_SPEED,
-            "a_w": assistant[:, 1] * MAX_TURN_RATE,
-        }
-    )
+    columns = {
+        "t_s": np.arange(len(user)) * 0.1,
+        "control": ["demonstrator"] * len(user),
+        "intent_v": user[:, 0] * MAX_SPEED,
+        "intent_w": user[:, 1] * MAX_TURN_RATE,
+        "a_v": assistant[:, 0] * MAX_SPEED,
+        "a_w": assistant[:, 1] * MAX_TURN_RATE,
+    }
+    return Steps(pa.table(columns))
 
 
 def test_same_direction_agrees_whatever_the_strength():
@@ -88,6 +87,7 @@ def test_a_stick_at_rest_neither_agrees_nor_opposes():
 
 def test_contacts_are_counted_once_each():
     """A contact of three steps is one collision, and 0.3 s of contact."""
-    frame = lap("000000").assign(contact=[False, True, True, True, False, False])
+    contact = pa.array([False, True, True, True, False, False])
+    frame = Steps(lap("000000").table.append_column("contact", contact))
     assert collisions(frame) == 1
     assert contact_time(frame) == pytest.approx(0.3)

@@ -1,18 +1,19 @@
 """When-AUC and Brier score."""
 
 import numpy as np
-import pandas as pd
+import pyarrow as pa
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from sklearn.metrics import brier_score_loss, roc_auc_score
 
 from analysis.measures.discrimination import brier_score, when_auc
+from analysis.measures.streams import Steps
 
 
 def lap(p, h):
     """Return steps with predictions and the demonstrator's wish."""
-    return pd.DataFrame({"t_s": np.arange(len(p)) * 0.1, "p_help": p, "h_would": h})
+    return Steps(pa.table({"t_s": np.arange(len(p)) * 0.1, "p_help": p, "h_would": h}))
 
 
 @given(

@@ -1,7 +1,7 @@
 """Fluency of working together."""
 
 import numpy as np
-import pandas as pd
+import pyarrow as pa
 import pytest
 
 from analysis.measures.fluency import (
@@ -10,19 +10,19 @@ from analysis.measures.fluency import (
     human_idle,
     robot_idle,
 )
+from analysis.measures.streams import Steps
 
 
 def lap(human, robot):
     """Return steps with both agents' activity given as strings of 0 and 1."""
     active = np.array([c == "1" for c in human])
-    return pd.DataFrame(
-        {
-            "t_s": np.arange(len(active)) * 0.1,
-            "intent_v": np.where(active, 0.5, 0.0),
-            "intent_w": 0.0,
-            "control": np.where([c == "1" for c in robot], "model", "driver"),
-        }
-    )
+    columns = {
+        "t_s": np.arange(len(active)) * 0.1,
+        "intent_v": np.where(active, 0.5, 0.0),
+        "intent_w": np.zeros(len(active)),
+        "control": np.where([c == "1" for c in robot], "model", "driver"),
+    }
+    return Steps(pa.table(columns))
 
 
 def test_idle_and_concurrent_shares():

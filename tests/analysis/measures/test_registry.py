@@ -1,23 +1,24 @@
 """What holds for every measure."""
 
 import numpy as np
-import pandas as pd
+import pyarrow as pa
 import pytest
 
 from analysis.measures.registry import MEASURES, measure
+from analysis.measures.streams import Steps
 from protocols.record.steps import STEP_COLUMNS
 
 
 @pytest.mark.parametrize("m", MEASURES, ids=lambda m: m.name)
 def test_a_measure_of_a_recorded_lap_is_one_number(m, steps):
     """On a lap in which the model helped, every measure is a finite number."""
-    assert np.isfinite(m.of(steps))
+    assert np.isfinite(m.of(Steps(pa.table(steps))))
 
 
 @pytest.mark.parametrize("m", MEASURES, ids=lambda m: m.name)
 def test_a_measure_without_its_columns_is_missing_or_needs_only_the_minimum(m, steps):
     """With nothing but time and position, a measure is NaN unless it needs no more than that."""
-    least = steps[["t_s", "x_m", "y_m"]]
+    least = Steps(pa.table({name: steps[name] for name in ("t_s", "x_m", "y_m")}))
     computable = m.name in ("driving_time_s", "path_length_m")
     assert np.isfinite(m.of(least)) == computable
 
@@ -25,25 +26,27 @@ def test_a_measure_without_its_columns_is_missing_or_needs_only_the_minimum(m, s
 @pytest.mark.parametrize("m", MEASURES, ids=lambda m: m.name)
 def test_a_measure_of_empty_columns_is_missing(m, steps):
     """A study recorded elsewhere: columns are there, and nothing is in them."""
-    empty = pd.DataFrame({c.name: pd.Series([None] * 5, dtype=object) for c in STEP_COLUMNS})
-    empty["t_s"] = np.arange(5) * 0.1
-    empty["x_m"] = empty["y_m"] = 0.0
-    assert np.isnan(m.of(empty)) or m.name in ("driving_time_s", "path_length_m")
+    columns = {c.name: pa.nulls(5, c.type) for c in STEP_COLUMNS}
+    columns |= {"t_s": np.arange(5) * 0.1, "x_m": np.zeros(5), "y_m": np.zeros(5)}
+    assert np.isnan(m.of(Steps(pa.table(columns)))) or m.name in ("driving_time_s", "path_length_m")
 
 
 @pytest.mark.parametrize("m", MEASURES, ids=lambda m: m.name)
 @pytest.mark.parametrize("n", [0, 1])
 def test_a_measure_of_hardly_any_steps_does_not_break(m, n, steps):
     """A lap cut short at its start gives a number or NaN, never an error."""
-    assert isinstance(m.of(steps.head(n)), float)
+    assert isinstance(m.of(Steps(pa.table(steps).slice(0, n))), float)
 
 
 @pytest.mark.parametrize("m", MEASURES, ids=lambda m: m.name)
 def test_a_measure_leaves_the_steps_alone(m, steps):
     """Measuring changes nothing: measures can be computed in any order."""
-    before = steps.copy(deep=True)
-    m.of(steps)
-    pd.testing.assert_frame_equal(steps, before)
+    before = {name: values.copy() for name, values in steps.items()}
+    together, alone = Steps(pa.table(steps)), Steps(pa.table(steps))
+    for other in reversed(MEASURES):
+        other.of(together)
+    np.testing.assert_array_equal(m.of(together), m.of(alone))
+    np.testing.assert_equal(steps, before)
 
 
 def test_an_unknown_measure_is_a_key_error():

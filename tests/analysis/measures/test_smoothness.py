@@ -1,12 +1,13 @@
 """Spectral arc length and log dimensionless jerk."""
 
 import numpy as np
-import pandas as pd
+import pyarrow as pa
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from analysis.measures.smoothness import log_dimensionless_jerk, sparc, spectral_arc_length
+from analysis.measures.streams import Steps
 from protocols.wheelchair import MAX_SPEED
 
 
@@ -20,7 +21,7 @@ def command(v, period=0.01):
     """Return steps of a translational command, in shares of full deflection."""
     v = np.asarray(v) * MAX_SPEED
     t = np.arange(len(v)) * period
-    return pd.DataFrame({"t_s": t, "intent_v": v, "intent_w": np.zeros(len(v))})
+    return Steps(pa.table({"t_s": t, "intent_v": v, "intent_w": np.zeros(len(v))}))
 
 
 def reference_sparc(speed, fs, padlevel=4, fc=10.0, amp_th=0.05):
@@ -85,6 +86,7 @@ def test_a_command_that_never_changes_has_no_jerk():
 
 def test_without_times_there_is_no_spectrum():
     """Times that are not numbers make the spectral arc length missing, not an error."""
-    steps = command(bell()).assign(t_s=np.nan)
+    table = command(bell()).table
+    steps = Steps(table.set_column(0, "t_s", pa.array(np.full(len(table), np.nan))))
     assert np.isnan(sparc(steps, "intent"))
     assert np.isnan(log_dimensionless_jerk(steps, "intent"))
