@@ -48,6 +48,8 @@ def validate(
             say(f"Orders: {sentence}.")
         if (groups := groups_in_words(protocol)) is not None:
             say(f"Groups: {groups}.")
+        for name, course in checked.group_courses.items():
+            say(f"Groups: {name} drives {course.name}.")
         for warning in out_of_reach(protocol):
             say(f"Caution: {warning}")
         for part in checked.beside:

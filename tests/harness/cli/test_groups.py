@@ -33,6 +33,15 @@ def test_a_groups_course_must_be_there(lad_study, tmp_path):
     assert "ward-corridor" in said.err
 
 
+def test_validate_names_each_groups_course(lad_study, tmp_path):
+    """The study's own course, and that of the group that has another one."""
+    (tmp_path / "two.yaml").write_text(TWO_COURSES)
+    said = lad_study("validate", "two.yaml")
+    assert said.code == 0
+    assert "2 laps on lab-office" in said.out
+    assert "Groups: there drives ward-corridor." in said.out
+
+
 @pytest.mark.slow
 def test_each_group_drives_its_own_course(lad_study, tmp_path):
     """Two people start where each course has its start; the record is whole, the report says so."""
