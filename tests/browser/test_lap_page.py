@@ -73,6 +73,12 @@ def test_a_reviewer_asks_for_the_lap_behind_a_point(visit, address):
     assert [asked for asked in page.asked if not asked.startswith("file:")] == []
 
 
+LONGER_NAMES = """
+for (const option of document.querySelectorAll(".row option"))
+  option.textContent += ", a condition whose name is longer than a phone is wide"
+"""
+
+
 def test_two_laps_side_by_side_play_on_a_phone(visit, address):
     """A link names them; time goes on by itself; nothing has to be scrolled sideways."""
     page = visit(f"{address}#P0001-1,P0001-2")
@@ -81,6 +87,7 @@ def test_two_laps_side_by_side_play_on_a_phone(visit, address):
     page.locator("#play").click()
     until(page, "Number(document.body.dataset.time) > 0.3")
     page.locator("#play").click()
+    page.evaluate(LONGER_NAMES)
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth + 1")
     drawn = "canvas => new Set(canvas.getContext('2d').getImageData(0, 0, 300, 200).data).size"
     assert page.locator("canvas.plan").first.evaluate(drawn) > 5

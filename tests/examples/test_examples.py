@@ -53,7 +53,6 @@ def mean(study, condition):
     return sum(times) / len(times)
 
 
-@pytest.mark.slow
 @pytest.mark.skipif(R is None, reason="R is not installed")
 def test_the_r_script_says_what_the_limitation_costs(study, tmp_path):
     """The difference is the record's."""
@@ -71,7 +70,6 @@ def test_the_r_script_says_what_the_limitation_costs(study, tmp_path):
     assert found[2] == "2"
 
 
-@pytest.mark.slow
 def test_the_notebook_runs_from_top_to_bottom(study, tmp_path, monkeypatch):
     """Every cell, in order; its lap times are the record's."""
     export_study(study.folder, "frictionless", tmp_path / "out")
