@@ -74,7 +74,9 @@ def test_values_are_the_sources(exported, study):
         names = pd.read_csv(
             path.with_name(path.name.replace("motion.tsv", "channels.tsv")), sep="\t"
         )["name"].tolist()
-        found = pd.read_csv(path, sep="\t", header=None, names=names, na_values="n/a")
+        found = pd.read_csv(
+            path, sep="\t", header=None, names=names, na_values="n/a", float_precision="round_trip"
+        )
         steps = study.steps(lap["participant"], lap["lap"]).to_pandas()
         assert names == [channel.column for channel in CHANNELS]
         np.testing.assert_array_equal(
