@@ -24,9 +24,9 @@ pip install frictionless
 frictionless validate datapackage.json
 ```
 
-In Python: `pandas.read_csv("steps.csv.gz", dtype={"participant": str},
-float_precision="round_trip")`; without the latter, older versions of pandas lose last digits. `h`
-and `h_would` have gaps: read them as `Int8`.
+In Python: `pandas.read_csv("steps.csv.gz", dtype={"participant": str})`. `h` and `h_would` have
+gaps: read them as `Int8`. A pandas before version 3 keeps every digit with
+`float_precision="round_trip"` only.
 """
 
 _REFERENCES = {
