@@ -217,8 +217,8 @@ def excluded(participants: pd.DataFrame) -> pd.Series:
 
 def refused(participants: pd.DataFrame) -> pd.Series:
     """Return who refused consent; a consent that was not recorded is not a refusal."""
-    consented: pd.Series = participants["consented"].fillna(value=True).astype(bool)
-    return ~consented
+    no: pd.Series = participants["consented"].eq(other=False)
+    return no
 
 
 def within(study: Study, fault: InputError | str) -> str:

@@ -25,7 +25,8 @@ frictionless validate datapackage.json
 ```
 
 In Python: `pandas.read_csv("steps.csv.gz", dtype={"participant": str})`. `h` and `h_would` have
-gaps: read them as `Int8`.
+gaps: read them as `Int8`. A pandas before version 3 keeps every digit with
+`float_precision="round_trip"` only.
 """
 
 _REFERENCES = {

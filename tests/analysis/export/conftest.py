@@ -3,9 +3,12 @@
 import subprocess
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
+import pandas as pd
 import pytest
+from packaging.version import Version
 
 from analysis.export.write import export_study
 from protocols.load import resolve_study
@@ -25,6 +28,13 @@ def exported(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Callable
         return made[name]
 
     return export
+
+
+@pytest.fixture(scope="session")
+def read_exactly() -> Callable[..., pd.DataFrame]:
+    """Return pandas' reader of CSV with every digit kept: versions before 3 must be told so."""
+    old = Version(pd.__version__) < Version("3")
+    return partial(pd.read_csv, **({"float_precision": "round_trip"} if old else {}))
 
 
 @pytest.fixture(scope="session")

@@ -65,7 +65,7 @@ def test_no_file_is_missing(exported, study):
         assert len(list(folder.rglob(f"*_{kind}"))) == len(study.laps), kind
 
 
-def test_values_are_the_sources(exported, study):
+def test_values_are_the_sources(exported, study, read_exactly):
     """Every channel of every step, and the state after the last one."""
     folder = exported("bids")
     for lap in study.laps.to_pylist():
@@ -74,7 +74,7 @@ def test_values_are_the_sources(exported, study):
         names = pd.read_csv(
             path.with_name(path.name.replace("motion.tsv", "channels.tsv")), sep="\t"
         )["name"].tolist()
-        found = pd.read_csv(path, sep="\t", header=None, names=names, na_values="n/a")
+        found = read_exactly(path, sep="\t", header=None, names=names, na_values="n/a")
         steps = study.steps(lap["participant"], lap["lap"]).to_pandas()
         assert names == [channel.column for channel in CHANNELS]
         np.testing.assert_array_equal(

@@ -38,10 +38,10 @@ def test_a_damaged_copy_is_refused(file, damage, fault, exported, checker, tmp_p
     assert fault in kinds
 
 
-def test_values_are_the_sources(exported, study):
+def test_values_are_the_sources(exported, study, read_exactly):
     """Every number of every step and lap, read back by pandas, is the recorded one."""
     folder = exported("frictionless")
-    steps = pd.read_csv(folder / "steps.csv.gz")
+    steps = read_exactly(folder / "steps.csv.gz")
     for lap in study.laps.to_pylist():
         wanted = study.steps(lap["participant"], lap["lap"]).to_pandas()
         mine = (steps["participant"] == lap["participant"]) & (steps["lap"] == lap["lap"])
@@ -49,7 +49,7 @@ def test_values_are_the_sources(exported, study):
         pd.testing.assert_frame_equal(
             found, wanted, check_dtype=False, check_exact=True, check_column_type=False
         )
-    laps = pd.read_csv(folder / "laps.csv", dtype={"seed": "uint64"})
+    laps = read_exactly(folder / "laps.csv", dtype={"seed": "uint64"})
     source = study.laps.to_pandas().sort_values(["participant", "lap"]).reset_index(drop=True)
     for column in ("lap_time_s", "condition", "seed", "assisted_fraction", "collisions"):
         assert laps[column].tolist() == source[column].tolist(), column

@@ -52,11 +52,11 @@ def test_a_damaged_copy_is_refused(damage, exported, tmp_path):
     assert faults(copied)
 
 
-def test_there_is_a_file_for_every_lap_with_its_values(exported, study):
+def test_there_is_a_file_for_every_lap_with_its_values(exported, study, read_exactly):
     """As many as there are laps, and the recorded numbers in them."""
     steps = exported("psych-ds") / "data" / "steps"
     assert len(list(steps.iterdir())) == len(study.laps)
-    read = pd.read_csv(steps / "subject-P0002_trial-3_description-steps_data.csv")
+    read = read_exactly(steps / "subject-P0002_trial-3_description-steps_data.csv")
     source = study.steps("P0002", 3).to_pandas()
     assert read["x_m"].tolist() == source["x_m"].tolist()
     assert read["h"].tolist() == source["h"].tolist()
