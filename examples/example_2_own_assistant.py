@@ -51,8 +51,8 @@ lad_study("check-part", "nearest_five:NearestFive")
 # -------
 #
 # Every assistant meets the same people, noise and demonstrations, and is compared with its own
-# demonstrator. The full benchmark has thirteen settings; this is one of them, the paper's. Code of your
-# own runs once you allow it with ``--trust``, and after that until its file changes.
+# demonstrator. The full benchmark has thirteen settings; this is one of them, the paper's. Code of
+# your own runs once you allow it with ``--trust``, and after that until its file changes.
 
 if quick:
     how = ["--replicates", 1, "--demonstrations", "1"]
