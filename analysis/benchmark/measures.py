@@ -22,7 +22,7 @@ Z90 = 1.6448536269514722
 MEASURES: dict[str, str] = {
     "lap_s": "lap time, s",
     "minus_demonstrator_s": "lap time minus the demonstrator's mean, s; an unfinished lap counts "
-    "as long as it took",
+    "as long as it took, one from which the person withdrew not at all",
     "minus_alone_s": "lap time minus the lap alone, s",
     "finished": "whether the lap reached its last gate",
     "takeovers": "unbroken stretches of help",
@@ -73,12 +73,14 @@ def _of_participant(
         steps = Steps(study.steps(participant, int(lap["lap"])))
         later = shown.loc[shown["lap"] > lap["lap"], "lap"]
         following = Steps(study.steps(participant, int(later.iloc[0]))) if len(later) else None
+        withdrew = lap.get("end_reason") == "withdrew"  # when it was left says nothing of help
+        duration = math.nan if withdrew else float(lap["duration_s"])
         yield {
             "participant": participant,
             "demonstrations": int(str(lap["condition"]).split()[-1]),
-            "lap_s": lap["duration_s"],
-            "minus_demonstrator_s": lap["duration_s"] - demonstrator,
-            "minus_alone_s": lap["duration_s"] - alone,
+            "lap_s": duration,
+            "minus_demonstrator_s": duration - demonstrator,
+            "minus_alone_s": duration - alone,
             "finished": float(lap["completed"]),
             "takeovers": lap["interventions"],
             **_in_its_own(steps, free_side),

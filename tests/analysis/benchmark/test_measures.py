@@ -97,3 +97,13 @@ def test_an_assistant_without_variance_has_no_coverage():
     assert math.isnan(found["coverage_90"])
     assert math.isnan(found["log_density"])
     assert found["brier_demonstrated"] > 0
+
+
+def test_a_lap_from_which_the_person_withdrew_has_no_time():
+    """Leaving after 20 s is not a fast lap; it still counts as not finished."""
+    gone = lap(1, "after 1", "model", 20.0, completed=False, end_reason="withdrew")
+    laps = [lap(0, "demonstration", "demonstrator", 40.0, end_reason="finished"), gone]
+    found = measures_of(study(laps, {1: steps()})).iloc[0]
+    assert math.isnan(found["lap_s"])
+    assert math.isnan(found["minus_demonstrator_s"])
+    assert found["finished"] == 0.0
