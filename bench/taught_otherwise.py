@@ -23,8 +23,8 @@ from protocols.record.reader import Study, open_study
 def inferred(study: Study, laps: pd.DataFrame) -> str | None:
     """Return how well h was inferred; None where it never was."""
     aucs, right, steps_in_all = [], 0, 0
-    for row in laps[laps["training"]].itertuples():
-        steps = study.steps(row.participant, int(row.lap)).to_pandas()
+    for row in laps[laps["training"]].to_dict("records"):
+        steps = study.steps(row["participant"], int(row["lap"])).to_pandas()
         if steps["h_inferred"].isna().all():
             continue
         p, h = steps["h_inferred"].to_numpy(), steps["h"].to_numpy() > 0
