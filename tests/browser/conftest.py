@@ -258,8 +258,8 @@ class Staged:
         self.received.append(message)
         if message["type"] == "hello":
             live = self._live | {"view": self._view()}
-            self.send("welcome", role=self._role, course=course_picture(COURSE), live=live,
-                      period_s=0.1)  # fmt: skip
+            self.send("welcome", role=self._role, course=course_picture(COURSE), courses={},
+                      live=live, period_s=0.1)  # fmt: skip
             self.send("ping", id=1, round_trip_ms=12.0)
 
     def _view(self):

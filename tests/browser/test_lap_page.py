@@ -4,10 +4,12 @@ import time
 
 import numpy as np
 import pandas as pd
+import pyarrow as pa
 import pytest
 
 from analysis.lap_pages.lap_data import LapOf, lap_data, lap_label
 from analysis.lap_pages.page import render_laps
+from analysis.measures.streams import Steps
 from protocols.load import load_course
 
 
@@ -31,7 +33,7 @@ def _lap(course, number, condition):
     for i in range(15):
         steps[f"segment_{i:02d}"] = 2.0
     of = LapOf("P0001", number, condition, completed=True, time_s=10.0 + number)
-    return lap_data(of, steps, course), lap_label(of)
+    return lap_data(of, Steps(pa.Table.from_pandas(steps)), course), lap_label(of)
 
 
 @pytest.fixture(scope="module")
