@@ -3,7 +3,7 @@
 try:
     from sklearn.exceptions import ConvergenceWarning
     from sklearn.linear_model import LogisticRegression, Ridge
-    from sklearn.neighbors import KDTree
+    from sklearn.neighbors import KNeighborsClassifier, KNeighborsRegressor
     from sklearn.neural_network import MLPClassifier, MLPRegressor
     from sklearn.pipeline import make_pipeline
     from sklearn.preprocessing import StandardScaler
@@ -14,7 +14,8 @@ except ImportError as error:
 
 __all__ = [
     "ConvergenceWarning",
-    "KDTree",
+    "KNeighborsClassifier",
+    "KNeighborsRegressor",
     "LogisticRegression",
     "MLPClassifier",
     "MLPRegressor",

@@ -148,7 +148,7 @@ def test_help_that_was_never_given_is_never_offered(make):
 
 
 def test_neighbours_answer_as_scikit_learns_estimators_do():
-    """The tree is asked directly; p(h) and the command are those of its estimators, bit for bit."""
+    """Learnt step by step, p(h) and the command are those of its estimators, bit for bit."""
     rng = np.random.default_rng(11)
     (x, helped), commands = _steps(rng, 200), rng.normal(size=(200, 2))
     model = neighbours.make()
