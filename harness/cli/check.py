@@ -25,6 +25,6 @@ def check(
         say(fault)
     if not faults:
         for remark in check_remarks(study):
-            say(f"{study}: read with a word: {remark}")
+            say(f"{study}: remark: {remark}")
         say(f"{study}: whole")
     return 1 if faults else 0

@@ -139,6 +139,9 @@ def test_answers_outlive_a_reload(opened):
     entered = stage.answers()[0]
     assert (entered["driving.Q1"], entered["driving.Q2"]) == (4, 1)
     assert entered["driving.Q2#s"] > 0
+    show(7)  # the answer did not arrive
+    stage.until(lambda: len(stage.answers()) == 2)
+    assert stage.answers()[1] == entered
     for request in (8, 9):
         show(request)
         assert not stage.wait("answer-Q1-4").is_checked()

@@ -10,7 +10,7 @@ export function askQuestions(questions, { page, required }, footer, done, name) 
   const pages = page === "item" ? questions.map((q) => [q]) : byInstrument(questions);
   const draft = draftOf(name);
   const ask = () => {
-    if (draft.page >= pages.length) { forgetDraft(); done(draft.entered); return; }
+    if (draft.page >= pages.length) { done(draft.entered); return; }  // again, if it did not arrive
     const title = pages.length > 1 ? `Questions, page ${draft.page + 1} of ${pages.length}` : "Questions";
     askPage(pages[draft.page], { required, footer, title, draft }, (answers) => {
       Object.assign(draft.entered, answers);
