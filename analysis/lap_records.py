@@ -30,9 +30,6 @@ WORDS = ("section", "section_kind")
 PIECE = 20
 """Laps that are read at a time."""
 
-MANY = 600
-"""From this many laps on, starting further processes costs less than it saves."""
-
 
 _FIRST_COLUMNS = tuple(column.name for column in STEP_COLUMNS if column.since == 1)
 """What came later is missing in older records and in simulated time, and no measure needs it."""
@@ -88,7 +85,7 @@ def read_laps(
     progress
         Told in a few words what is being done.
     others
-        Processes that help from ``MANY`` laps on.
+        Processes that read them.
     """
     found: Counter[str] = Counter()
     unrecorded = list(_FIRST_COLUMNS)
@@ -164,7 +161,6 @@ def _pieces(
         )
     )
     pieces = [places[i : i + PIECE] for i in range(0, len(places), PIECE)]
-    others = others if len(places) >= MANY else HERE
     done = 0
     tell(f"Measuring laps: 0 of {len(places)}")
     for piece in others.in_order(partial(_read, frames.study), pieces):

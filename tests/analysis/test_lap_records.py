@@ -106,7 +106,6 @@ def test_several_processes_read_what_one_reads(study, monkeypatch):
     """Laps come in their order, with the same numbers and the same kinds of columns."""
     frames = study_frames(study)
     one = read_laps(frames)
-    monkeypatch.setattr(lap_records, "MANY", 1)
     monkeypatch.setattr(lap_records, "PIECE", 3)
     with processes(2) as others:
         two = read_laps(frames, others=others)
