@@ -14,13 +14,8 @@ from protocols.files.errors import InputError
 from protocols.order import group_of, in_words, laps_of
 from protocols.record.amendment import plan_number
 from protocols.record.enrolment import enrolled, slot_of
-from protocols.registration import (
-    REGISTRATION,
-    Registration,
-    plan_differences,
-    plan_study,
-    read_registration,
-)
+from protocols.registered_study import plan_differences, plan_study
+from protocols.registration import REGISTRATION, Registration, read_registration
 
 
 @dataclass(frozen=True, slots=True)

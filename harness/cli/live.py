@@ -69,7 +69,8 @@ def live(
     study = trusted_study(study, asked=trust)
     plan = None
     if registration is not None:
-        from protocols.registration import read_registration, registered
+        from protocols.registered_study import registered
+        from protocols.registration import read_registration
 
         plan = read_registration(registration)
         study = registered(study, plan)

@@ -112,7 +112,8 @@ def _run(
     study = trusted_study(study, asked=trust)
     plan = None
     if registration is not None:
-        from protocols.registration import copy_registration, read_registration, registered
+        from protocols.registered_study import copy_registration, registered
+        from protocols.registration import read_registration
 
         plan = read_registration(registration)
         study = registered(study, plan)

@@ -20,7 +20,8 @@ from harness.session.study_run import StudyRun
 from protocols.files.errors import InputError
 from protocols.record.atomic import write_whole
 from protocols.record.store import locked
-from protocols.registration import Registration, copy_registration
+from protocols.registered_study import copy_registration
+from protocols.registration import Registration
 
 LOOK_S = 0.5
 """How often it is looked whether the study is over, s."""

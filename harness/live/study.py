@@ -14,7 +14,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from harness.live.tokens import ROLES, Tokens
-from harness.live.visit import Visit, visitors_of
+from harness.live.visit import Visit
+from harness.live.visitors import visitors_of
 from harness.running.sessions import world_of
 from harness.session.study_run import StudyRun, portable
 from harness.world.world import World

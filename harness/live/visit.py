@@ -4,7 +4,7 @@ import threading
 import traceback
 from collections import deque
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Literal
@@ -14,6 +14,7 @@ from harness.live.mailbox import Mailbox
 from harness.live.punctuality import TOO_LATE_S, lateness_s
 from harness.live.repeating import repeating
 from harness.live.step_shown import step_shown
+from harness.live.visitors import visitors_of
 from harness.session.borrowed import make_all_parts
 from harness.session.clock import Clock, LapStoppedError, StopReason, VirtualClock, WallClock
 from harness.session.journal import FileJournal
@@ -42,33 +43,6 @@ TRAIL = 4000
 Farewell = Literal["finished", "refused", "unfit", "withdrew", "ended"]
 """How a session ended for its participant: gone through, without consent, on a machine that the
 protocol's rule refuses, by their own wish, or by the experimenter's."""
-
-
-@dataclass(frozen=True, slots=True)
-class Visitors:
-    """Which seats of a visit are living people's.
-
-    Attributes
-    ----------
-    participant
-        Whether a living person drives, answers or reads.
-    demonstrator
-        Whether a living person demonstrates.
-    """
-
-    participant: bool
-    demonstrator: bool
-
-
-def visitors_of(run: StudyRun) -> Visitors:
-    """Return which seats a study's protocol gives to living people."""
-    cohort = run.study.protocol.cohort
-    respondent, demonstrator = cohort.respondent, cohort.demonstrator
-    answers = respondent is not None and respondent.use == "live"
-    return Visitors(
-        participant=cohort.driver.use == "live" or answers,
-        demonstrator=demonstrator is not None and demonstrator.use == "live",
-    )
 
 
 class Visit:

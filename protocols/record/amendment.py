@@ -8,13 +8,8 @@ from protocols.record.folder import locked
 from protocols.record.header import STUDY_FILE, AmendedStudy, StudyHeader, read_header, write_header
 from protocols.record.identity import identity_differences, identity_digest
 from protocols.record.sessions import finished_sessions
-from protocols.registration import (
-    REGISTRATION,
-    Registration,
-    copy_registration,
-    plan_of,
-    read_registration,
-)
+from protocols.registered_study import copy_registration
+from protocols.registration import REGISTRATION, Registration, plan_of, read_registration
 from protocols.resolved import ResolvedStudy
 
 

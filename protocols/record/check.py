@@ -36,13 +36,8 @@ from protocols.record.session import (
 from protocols.record.sessions import SESSIONS, read_manifest, session_faults, session_folders
 from protocols.record.steps import STEP_COLUMNS
 from protocols.record.tables import LAP_COLUMNS, PARTICIPANT_COLUMNS, SURVEY_COLUMNS
-from protocols.registration import (
-    REGISTRATION,
-    Registration,
-    plan_study,
-    read_registration,
-    registration_faults,
-)
+from protocols.registered_study import plan_study, registration_faults
+from protocols.registration import REGISTRATION, Registration, read_registration
 from protocols.resolved import ResolvedStudy
 
 

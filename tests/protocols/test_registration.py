@@ -8,14 +8,8 @@ import pytest
 from protocols.files.errors import InputError
 from protocols.load import resolve_study
 from protocols.order import in_words, laps_of
-from protocols.registration import (
-    REGISTRATION,
-    copy_registration,
-    read_registration,
-    registered,
-    registration_faults,
-    write_registration,
-)
+from protocols.registered_study import copy_registration, registered, registration_faults
+from protocols.registration import REGISTRATION, read_registration, write_registration
 
 
 @pytest.fixture

@@ -11,7 +11,8 @@ from harness.session.study_run import StudyRun
 from protocols.files.errors import InputError
 from protocols.load import resolve_study
 from protocols.record.check import check_study
-from protocols.registration import read_registration, registered, write_registration
+from protocols.registered_study import registered
+from protocols.registration import read_registration, write_registration
 
 
 @pytest.fixture

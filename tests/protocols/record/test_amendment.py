@@ -15,14 +15,13 @@ from protocols.record.store import (
     refuse_another_study,
     write_session,
 )
-from protocols.registration import (
+from protocols.registered_study import (
     copy_registration,
     plan_study,
-    read_registration,
     registered,
     registration_faults,
-    write_registration,
 )
+from protocols.registration import read_registration, write_registration
 
 
 def session(who, digest):
