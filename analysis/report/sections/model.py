@@ -37,11 +37,11 @@ def model_section(results: StudyResults) -> Section:
             Picture(
                 "model_quality",
                 "Left: area under the ROC curve of p(h = 1 | x) against what the demonstrator did "
-                "or, as a shadow, would have done, of every finished lap (bar: median; dotted: "
-                "chance). Right: reliability, steps of all laps, unfinished ones too, pooled in "
-                "tenths of p. Predictions were recorded before "
-                "the model learnt from a step: they are out of sample. Laps before the first "
-                "demonstration are left out: there the model has learnt nothing.",
+                "or, as a shadow, would have done, of every finished lap (bar and number: median; "
+                "dotted: chance). Right: reliability, steps of all laps, unfinished ones too, "
+                "pooled in tenths of p. Predictions were recorded before the model learnt from a "
+                "step: they are out of sample. Laps before the first demonstration are left out: "
+                "there the model has learnt nothing.",
                 f"Model quality: {aucs or 'nothing to compare'}.",
                 model_figure(measures, reliability, taught),
                 lap_spots(results, points),
