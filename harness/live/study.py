@@ -323,7 +323,14 @@ def _secret(private: Path) -> bytes:
 def _revoked(private: Path) -> tuple[str, ...]:
     """Return the names of the tokens that an earlier process revoked."""
     path = private / REVOKED
-    return tuple(json.loads(path.read_bytes())) if path.exists() else ()
+    if not path.exists():
+        return ()
+    try:
+        return tuple(map(str, json.loads(path.read_bytes())))
+    except (ValueError, TypeError):
+        raise InputError(
+            f"{path}: damaged; allowed: a list of names in JSON, or no such file and --new-links"
+        ) from None
 
 
 def _one_world_at_a_time() -> Callable[[StudyRun], World]:

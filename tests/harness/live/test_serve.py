@@ -6,7 +6,7 @@ import pytest
 
 from harness.live import serve
 from harness.live.serve import Address, serve_study
-from harness.live.study import LiveStudy
+from harness.live.study import REVOKED, LiveStudy
 from harness.session.study_run import StudyRun
 from protocols.files.errors import InputError
 from protocols.load import resolve_study
@@ -60,6 +60,14 @@ def test_new_links_replace_the_old_ones(asked, run, tmp_path):
     assert [tokens.read(token).role for token in printed[2]] == [
         "participant", "demonstrator", "experimenter",
     ]  # fmt: skip
+
+
+def test_a_damaged_list_of_revoked_links_is_refused(asked, run, tmp_path):
+    """In one line: without it, links that were revoked would open again."""
+    LiveStudy(run, tmp_path / "s").new_links()
+    (tmp_path / "s.private" / REVOKED).write_text("{")
+    with pytest.raises(InputError, match=r"revoked\.json: damaged; allowed: .*--new-links"):
+        serve_study(run, tmp_path / "s", Address(port=0), print)
 
 
 def test_the_local_network_gets_links_with_qr_codes(asked, run, tmp_path, monkeypatch):
