@@ -16,8 +16,8 @@ const SLOW = 20, COARSEST = 0.3;
 // Where fewer than SLOW are drawn a second, such as without a graphics card, they become coarser.
 export function openView(canvas, course, tell) {
   if (!hasWebGL()) return null;
-  let share = 1, since = performance.now(), drawn = 0;
-  const counted = (n) => { drawn += n; tell(n); };
+  let share = 1, since = Infinity, drawn = 0;  // counted from the first picture: loading takes its time
+  const counted = (n) => { since = Math.min(since, performance.now()); drawn += n; tell(n); };
   const size = () => {
     const now = performance.now();
     if (now - since > 1000) {
