@@ -34,6 +34,8 @@ from protocols.record.study_tables import StudyTables
 _TIMES = replace(STEPS, required=("t_s",))
 NO_ROW = "the table has no row"
 """What is said of a step table in which nothing is recorded."""
+UNLIKE = "its length does not fit its lap: another clock, another lap's table, or cut? It is used"
+"""What is said of a step table that differs from its lap by more than a step or two."""
 
 
 class LapSteps(NamedTuple):
@@ -132,8 +134,11 @@ class ForeignSteps:
             said.append(NO_ROW)
         if placement.on_course and not placement.whole:
             said.append(INCOMPLETE)
-        if (row := self._rows.get((participant, lap))) and (by := not_planned(table, row)):
+        row, told = self._rows.get((participant, lap)), self._tell.get((participant, lap))
+        if row and (by := not_planned(table, row)):
             said.append(f"commands of the {by} count, and the lap's condition has no such help")
+        if row and told and told.lasts(row) is False and np.isfinite(clock.t_s).any():
+            said.append(UNLIKE)
         return LapSteps(table, (*clock.remarks, *said), placement)
 
     def path(self, participant: str, lap: int) -> Path | None:
@@ -145,8 +150,13 @@ class ForeignSteps:
     @cached_property
     def misfiled(self) -> dict[Key, str]:
         """The step tables that are another lap's by what they say of themselves, in words."""
+        return misfiled(self._rows, self._tell)
+
+    @cached_property
+    def _tell(self) -> dict[Key, Told]:
+        """What each lap's step table says of itself, of those that can be read."""
         told = ((key, self._told(key)) for key in self._rows)
-        return misfiled(self._rows, {key: said for key, said in told if said is not None})
+        return {key: said for key, said in told if said is not None}
 
     def _told(self, key: Key) -> Told | None:
         """Return what a lap's step table says of itself; None where it cannot be read."""

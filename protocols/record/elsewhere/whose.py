@@ -82,6 +82,10 @@ class Told:
         """Return whether the table can be that lap's; None where nothing tells."""
         if row.helpers is not None and self.helpers - row.helpers:
             return False
+        return self.lasts(row)
+
+    def lasts(self, row: LapRow) -> bool | None:
+        """Return whether the table is as long as that lap; None where nothing tells."""
         if self.spans and row.lasted:
             return any(
                 abs(span - wanted) <= _EXACT * step

@@ -46,7 +46,9 @@ class Deviation(NamedTuple):
 
 def applied(name: str, study: Study, seed: int) -> None:
     """Change a study; a deviation that an earlier one has made impossible changes nothing."""
-    with suppress(pa.ArrowException, KeyError, TypeError, ValueError, AttributeError, IndexError):
+    with suppress(
+        pa.ArrowException, ArithmeticError, AttributeError, LookupError, TypeError, ValueError
+    ):
         DEVIATIONS[name].change(study, random.Random(seed))  # noqa: S311 - which row, not a secret
 
 
@@ -187,6 +189,16 @@ def _all_of_two_people_exchanged(study: Study, rng: random.Random) -> None:
         _exchanged((0, lap), (2, lap))(study, rng)
 
 
+def _folders_and_laps_exchanged(study: Study, rng: random.Random) -> None:
+    _exchanged((0, 1), (0, 2))(study, rng)
+    _all_of_two_people_exchanged(study, rng)
+
+
+def _cut(study: Study, _: random.Random) -> None:
+    key = (_people(study)[0], "steps-1.parquet")
+    study.steps[key] = study.steps[key].slice(0, len(study.steps[key]) - 3)
+
+
 def _rotated(study: Study, _: random.Random) -> None:
     who = _people(study)[0]
     names = [f"steps-{lap}.parquet" for lap in range(3)]
@@ -301,6 +313,11 @@ DEVIATIONS: dict[str, Deviation] = {
     "three laps' steps exchanged": Deviation(_rotated, "changed", "fits lap 2, and not lap 1"),
     "two people's steps exchanged": Deviation(
         _all_of_two_people_exchanged, "changed", "fits lap 1 of 04, and not lap 1"),
+    "one lap of two people exchanged": Deviation(
+        _exchanged((0, 1), (2, 1)), "changed", "its length does not fit its lap"),
+    "folders and laps exchanged": Deviation(
+        _folders_and_laps_exchanged, "changed", "its length does not fit its lap"),
+    "three steps cut off": Deviation(_cut, "changed", "its length does not fit its lap"),
     "a person's column": Deviation(_naming("participant", lambda who, _: who), "same"),
     "another person's column": Deviation(
         _naming("participant", lambda who, _: who, _all_as_long, _exchanged((0, 1), (2, 1))),
