@@ -24,6 +24,9 @@ class Assistance(NamedTuple):
     variance
         Predictive variance of the action including noise, the same for both components
         ((m/s)^2 and (rad/s)^2); None as for ``p_help``.
+    share
+        Level of assistance, the assistant's share of a mixed command, in [0, 1]; None for one that
+        learns none.
     """
 
     helping: bool
@@ -31,6 +34,7 @@ class Assistance(NamedTuple):
     p_help: float | None = None
     mean: Command | None = None
     variance: float | None = None
+    share: float | None = None
 
 
 NO_ASSISTANCE = Assistance(helping=False)

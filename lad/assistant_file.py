@@ -1,5 +1,6 @@
-"""An assistant of two processes as a header and plain arrays, and back."""
+"""An assistant of two processes or more as a header and plain arrays, and back."""
 
+from collections.abc import Mapping
 from typing import Any, Protocol
 
 from lad.errors import ModelFileError
@@ -17,7 +18,7 @@ FIELDS = frozenset(
 """Every field that a header may have."""
 
 
-class Pair(Protocol):
+class Processes(Protocol):
     """What is saved of an assistant; ``LADAssistant`` says what each attribute is."""
 
     parameters: LADParameters
@@ -28,19 +29,19 @@ class Pair(Protocol):
     since: int
 
     @property
-    def one_window(self) -> bool:
-        """Whether the two processes look at the same window."""
+    def processes(self) -> Mapping[str, StorkGP]:
+        """Every process by name, ``when`` first."""
 
     def make_processes(self, when: GPHyperparameters, how: GPHyperparameters) -> None:
         """Begin anew with two untaught processes."""
 
 
-def take_apart(pair: Pair) -> tuple[dict[str, Any], Arrays]:
+def take_apart(assistant: Processes) -> tuple[dict[str, Any], Arrays]:
     """Return the header and the arrays of a saved assistant.
 
     Parameters
     ----------
-    pair
+    assistant
         The assistant; it is not changed.
 
     Examples
@@ -50,35 +51,35 @@ def take_apart(pair: Pair) -> tuple[dict[str, Any], Arrays]:
     >>> sorted(header)
     ['health', 'parameters', 'window']
     """
-    window, arrays = window_arrays(pair.when.window)
-    for name, process in (("when", pair.when), ("how", pair.how)):
+    window, arrays = window_arrays(assistant.when.window)
+    for name, process in assistant.processes.items():
         for key, array in state_arrays(process.state).items():
             arrays[f"{name}/{key}"] = array
+        if process.window is not assistant.when.window:
+            arrays[f"{name}/window"] = process.window.scaled
     header: dict[str, Any] = {
-        "parameters": pair.parameters.to_header(),
+        "parameters": assistant.parameters.to_header(),
         "window": window,
-        "health": [pair.when.health.to_header(), pair.how.health.to_header()],
+        "health": [process.health.to_header() for process in assistant.processes.values()],
     }
-    if pair.taught is not None:
-        header["taught_since"] = pair.since
-        arrays |= pair.taught.to_arrays() if len(pair.taught) else {}
-    if pair.tuned is not None:
+    if assistant.taught is not None:
+        header["taught_since"] = assistant.since
+        arrays |= assistant.taught.to_arrays() if len(assistant.taught) else {}
+    if assistant.tuned is not None:
         header["tuned"] = {
-            "when": pair.tuned.when.to_header(),
-            "how": pair.tuned.how.to_header(),
-            "steps": pair.tuned.steps,
+            "when": assistant.tuned.when.to_header(),
+            "how": assistant.tuned.how.to_header(),
+            "steps": assistant.tuned.steps,
         }
-    if not pair.one_window:
-        arrays["how/window"] = pair.how.window.scaled
     return header, arrays
 
 
-def restore(pair: Pair, header: dict[str, Any], arrays: Arrays) -> None:
+def restore(assistant: Processes, header: dict[str, Any], arrays: Arrays) -> None:
     """Fill an untaught assistant of the same parameters with what ``take_apart`` returned.
 
     Parameters
     ----------
-    pair
+    assistant
         An untaught assistant of the same parameters; it is changed.
     header
         As it was saved.
@@ -108,18 +109,19 @@ def restore(pair: Pair, header: dict[str, Any], arrays: Arrays) -> None:
         raise ModelFileError(f"header: {unknown[0]!r} is of another version of lad-study")
     if "tuned" in header:
         when, how = (GPHyperparameters.from_header(header["tuned"][n]) for n in ("when", "how"))
-        pair.tuned = Tuned(when, how, header["tuned"]["steps"])
-        pair.make_processes(when, how)
-    restore_window(pair.when.window, header["window"], arrays)
-    for name, process in (("when", pair.when), ("how", pair.how)):
+        assistant.tuned = Tuned(when, how, header["tuned"]["steps"])
+        assistant.make_processes(when, how)
+    restore_window(assistant.when.window, header["window"], arrays)
+    for name, process in assistant.processes.items():
         own = _belonging_to(name, arrays)
         restore_state(process.state, own)
-        if process.window is not pair.when.window:
+        if process.window is not assistant.when.window:
             restore_window(process.window, header["window"], own)
-    if pair.taught is not None and f"{PREFIX}times" in arrays:
-        pair.taught = TaughtSteps.from_arrays(arrays)
-    pair.since = header.get("taught_since", 0)
-    pair.when.health, pair.how.health = (Health(**one) for one in header["health"])
+    if assistant.taught is not None and f"{PREFIX}times" in arrays:
+        assistant.taught = TaughtSteps.from_arrays(arrays)
+    assistant.since = header.get("taught_since", 0)
+    for process, health in zip(assistant.processes.values(), header["health"], strict=True):
+        process.health = Health(**health)
 
 
 def _belonging_to(name: str, arrays: Arrays) -> Arrays:

@@ -196,7 +196,7 @@ class LADParameters(_Checked):
         probability (``probit``) of an unknown state is pi. The paper has .5, that is m0 = 0.
     constant_variance
         sigma_c^2 of the regressor; None for the model's own: 0 for ``lad``, 0.1 for
-        ``lad-correction``.
+        ``lad-correction`` and ``lad-level``.
     tune
         ``evidence``: at the start of a lap, what was taught since the last one chooses the
         regressor's hyperparameters by exact marginal likelihood, and the classifier's signal

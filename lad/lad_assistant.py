@@ -1,5 +1,6 @@
 """The learned assistant: when to help and how, section III of Soh & Demiris."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import ClassVar, Self
 
@@ -17,6 +18,7 @@ from lad.stork_gp import StorkGP
 from lad.tuning.reteach import HELPING, NOT_HELPING, reteach
 from lad.tuning.taught import TaughtSteps
 from lad.tuning.tune import LEAST_STEPS, Tuned, refuse_too_few, tune
+from lad.window import Window
 
 
 class LADAssistant:
@@ -79,9 +81,14 @@ class LADAssistant:
         self.how = StorkGP(how, n_outputs=2, window=shared)
 
     @property
-    def one_window(self) -> bool:
-        """Whether the two processes look at the same window."""
-        return self.how.window is self.when.window
+    def processes(self) -> Mapping[str, StorkGP]:
+        """Every process by name, ``when`` first; they may share a window."""
+        return {"when": self.when, "how": self.how}
+
+    @property
+    def windows(self) -> tuple[Window, ...]:
+        """The windows that the processes look at, each once."""
+        return tuple({id(p.window): p.window for p in self.processes.values()}.values())
 
     def start_lap(self) -> None:
         """Forget the last lap's history; keep what was learnt, as far as the parameters say so.
@@ -89,9 +96,8 @@ class LADAssistant:
         With ``tune: evidence`` hyperparameters are chosen anew when something was taught since the
         last time, and 20 steps with help and 20 without are known.
         """
-        self.when.reset_window()
-        if not self.one_window:
-            self.how.reset_window()
+        for window in self.windows:
+            window.reset()
         if self.taught is not None and self.since:
             self._reconsider(self.taught)
 
@@ -149,9 +155,8 @@ class LADAssistant:
         InvalidInputError
             When x has another shape or type or is not finite; nothing has changed.
         """
-        self.when.observe(x)
-        if not self.one_window:
-            self.how.observe(x)
+        for window in self.windows:
+            window.observe(x)
         return self._answer()
 
     def answer_at(self, window: NDArray[np.float64]) -> Assistance:
@@ -162,8 +167,8 @@ class LADAssistant:
         window
             Shape (tau, 19), newest input first, in the inputs' units.
         """
-        for process in (self.when, self.how):
-            process.window.show(window, process.window.time, process.window.lap)
+        for shown in self.windows:
+            shown.show(window, shown.time, shown.lap)
         return self._answer()
 
     def _answer(self) -> Assistance:

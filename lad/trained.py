@@ -2,10 +2,11 @@
 
 from lad.correction import CorrectionAssistant
 from lad.lad_assistant import LADAssistant
+from lad.level import LevelAssistant
 from lad.model_file import kind_of, read
 
 KINDS: dict[str, type[LADAssistant]] = {
-    cls.kind: cls for cls in (LADAssistant, CorrectionAssistant)
+    cls.kind: cls for cls in (LADAssistant, CorrectionAssistant, LevelAssistant)
 }
 """Shipped assistants by what their files say that they are."""
 

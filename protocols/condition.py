@@ -8,7 +8,7 @@ from protocols.files.file_model import FileModel, Name
 from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
 
 AssistantRole = Literal["none", "demonstrator", "model"]
-ArbitrationKind = Literal["takeover", "augment", "blend"]
+ArbitrationKind = Literal["takeover", "augment", "blend", "blend-learnt"]
 
 
 TurnRate = Annotated[float, Field(gt=0, le=MAX_TURN_RATE)]

@@ -11,7 +11,7 @@ from protocols.groups import Group
 from protocols.laps import AskedInstrument, PlannedLap
 from protocols.model_choice import BorrowedModel
 from protocols.orders import Orders, legal_orders, order_faults, put_in_order, untaught
-from protocols.shipped_parts import LAD, LIVE
+from protocols.shipped_parts import LAD, LEVEL, LIVE, MODELS, WITH_PARAMETERS
 
 
 def check_consistency(
@@ -20,7 +20,7 @@ def check_consistency(
     analyses: tuple[Comparison, ...],
     *,
     cohort: Cohort,
-    taught: bool = False,
+    model: str = LAD,
     survey: tuple[AskedInstrument, ...] = (),
     orders: Orders | None = None,
     groups: Mapping[str, Group] | None = None,
@@ -35,8 +35,8 @@ def check_consistency(
         As the protocol has them.
     cohort
         Whether there is a demonstrator, and a respondent.
-    taught
-        Whether the model may have been taught before the study.
+    model
+        The participant's own, by name.
     survey
         What is asked after the last lap.
     orders, groups, models, demonstrators
@@ -48,15 +48,18 @@ def check_consistency(
     InconsistentError
         With every fault found and its location in the file.
     """
+    taught = _taught_before(model)
     faults = (
         *_absent_faults(conditions, laps, cohort),
         *_session_survey_faults(survey, cohort),
         *_lap_faults(conditions, laps, taught, orders or Orders()),
         *_model_faults(conditions, models or {}, ("conditions",)),
+        *_level_faults(conditions, model, ("conditions",)),
         *_pilot_faults(conditions, laps, models or {}),
         *_demonstrator_faults(conditions, demonstrators or {}, ("conditions",)),
         *_further_faults(demonstrators or {}, cohort),
         *_group_faults(conditions, groups or {}, models or {}, demonstrators or {}, cohort),
+        *_group_level_faults(conditions, groups or {}, model),
         *_untaught_faults(conditions, laps, groups or {}, taught, orders or Orders()),
         *_analysis_faults(conditions, laps, analyses),
         *_between_faults(analyses, groups or {}),
@@ -181,6 +184,32 @@ def _model_faults(
         yield Fault(("models", "own"), "own is the participant's model; allowed: another name")
 
 
+def _taught_before(model: str) -> bool:
+    """Return whether a model may know something before the study; of a foreign one it may."""
+    return model not in WITH_PARAMETERS
+
+
+def _level_faults(conditions: Mapping[str, Condition], model: str, at: Location) -> Iterator[Fault]:
+    """Find conditions that need a level of assistance where the own model learns none."""
+    if model in MODELS and model not in (LEVEL, "taught"):
+        for name, condition in conditions.items():
+            if condition.arbitration == "blend-learnt" and condition.model == "own":
+                message = f"{model} learns no level of assistance; allowed: model: {{use: {LEVEL}}}"
+                yield Fault((*at, name, "arbitration"), message)
+
+
+def _group_level_faults(
+    conditions: Mapping[str, Condition], groups: Mapping[str, Group], model: str
+) -> Iterator[Fault]:
+    for name, group in groups.items():
+        own = model if group.model is None else group.model.use
+        at: Location = ("groups", name, "conditions")
+        yield from _level_faults(group.conditions, own, at)
+        if group.model is not None:
+            kept = {n: c for n, c in conditions.items() if n not in group.conditions}
+            yield from _level_faults(kept, own, ("conditions",))
+
+
 def _pilot_faults(
     conditions: Mapping[str, Condition],
     laps: tuple[PlannedLap, ...],
@@ -231,7 +260,7 @@ def _untaught_faults(
         return
     for name, group in groups.items():
         own = {**conditions, **group.conditions}
-        before = group.model.use != LAD if group.model is not None else taught
+        before = _taught_before(group.model.use) if group.model is not None else taught
         for order in legal_orders(orders, laps, conditions, taught=taught):
             missing = untaught(put_in_order(laps, order), own, taught=before)
             if missing is not None:

@@ -15,14 +15,15 @@ class ModelChoice(FileModel):
     """The assistant that learns; Table I of the paper is the default.
 
     ``lad`` learns the demonstrator's command, as the paper's model does, ``lad-correction`` how it
-    differs from the user's; both take ``parameters``. Any other model takes ``options``.
+    differs from the user's, ``lad-level`` also the share of the command that it is given; all three
+    take ``parameters``. Any other model takes ``options``.
 
     Attributes
     ----------
     use
         A shipped model, an installed package's, or ``module:factory`` beside the protocol file.
     parameters
-        Of ``lad`` and ``lad-correction``.
+        Of ``lad``, ``lad-correction`` and ``lad-level``.
     options
         Settings of any other model, by name; the model checks them. In text, ``{participant}``
         stands for the participant's id and ``{folder}`` for the protocol file's folder.

@@ -30,15 +30,16 @@ RESPONDENTS: Mapping[str, str] = {
     "ordinal": "participants.respondent:ordinal_respondent",
     LIVE: "participants.live.pages:live_respondent",
 }
-LAD, CORRECTION = "lad", "lad-correction"
-"""The model of the paper, and the one that learns corrections of the user's command."""
+LAD, CORRECTION, LEVEL = "lad", "lad-correction", "lad-level"
+"""The model of the paper; one that learns corrections of the user's command; that and a level."""
 
-WITH_PARAMETERS = (LAD, CORRECTION)
+WITH_PARAMETERS = (LAD, CORRECTION, LEVEL)
 """Models that take ``parameters``; every other model takes ``options``."""
 
 MODELS: Mapping[str, str] = {
     LAD: "lad.lad_assistant:LADAssistant",
     CORRECTION: "lad.correction:CorrectionAssistant",
+    LEVEL: "lad.level:LevelAssistant",
     "taught": "lad.trained:load",
     "linear": "lad.baselines.linear:make",
     "neighbours": "lad.baselines.neighbours:make",

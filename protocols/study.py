@@ -15,7 +15,6 @@ from protocols.live import LiveSettings
 from protocols.model_choice import BorrowedModel, ModelChoice, Sha256
 from protocols.orders import Orders
 from protocols.pages import Consent, Particular, Text
-from protocols.shipped_parts import LAD
 from protocols.start_noise import StartNoise
 from protocols.wheelchair import LASER_RANGE
 
@@ -133,13 +132,12 @@ class StudyProtocol(FileModel):
 
     @model_validator(mode="after")
     def _parts_agree(self) -> Self:
-        taught = self.model.use != LAD  # what a model of one's own knows is not ours to say
         check_consistency(
             self.conditions,
             self.laps,
             self.analyses,
             cohort=self.cohort,
-            taught=taught,
+            model=self.model.use,
             survey=self.survey,
             orders=self.orders,
             groups=self.groups,

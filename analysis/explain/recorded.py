@@ -47,7 +47,9 @@ def learnt_model(study: Study, participant: str) -> LADAssistant:
     try:
         model = from_bytes(data, where)
     except ValueError as error:
-        raise InputError(f"{error}; allowed: a model that ships, lad or lad-correction") from None
+        raise InputError(
+            f"{error}; allowed: a model that ships: lad, lad-correction, lad-level"
+        ) from None
     if not model.how.n_basis:
         raise InputError(f"{where}: its model was never shown any help; there is no policy yet")
     return model

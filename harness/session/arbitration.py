@@ -1,10 +1,11 @@
 """How the driver's and the assistant's commands are combined."""
 
 from collections.abc import Callable
-from typing import Literal
 
 from lad.assistant import Assistance
 from lad.command import Command
+from protocols.condition import ArbitrationKind
+from protocols.files.errors import InputError
 from protocols.wheelchair import within_limits
 
 Arbitration = Callable[[Command, Assistance], Command]
@@ -54,15 +55,41 @@ def blend(user: Command, assistance: Assistance) -> Command:
     """
     if assistance.p_help is None or assistance.mean is None:
         return takeover(user, assistance)
-    share = assistance.p_help
+    return _mixed(user, assistance.mean, assistance.p_help)
+
+
+def blend_learnt(user: Command, assistance: Assistance) -> Command:
+    """Mix the two commands, the assistant's share being the level that it has learnt.
+
+    Of the shipped models only ``lad-level`` learns one. A demonstrator has all of it while helping.
+
+    Raises
+    ------
+    InputError
+        When the assistant predicts a command and no level.
+
+    Examples
+    --------
+    >>> half = Assistance(helping=True, p_help=0.75, mean=Command(0.2, -0.5), share=0.5)
+    >>> blend_learnt(Command(0.4, -0.1), half)
+    Command(v=0.30000000000000004, w=-0.3)
+    """
+    if assistance.mean is None:
+        return takeover(user, assistance)
+    if assistance.share is None:
+        raise InputError("arbitration blend-learnt: this model learns no level; allowed: lad-level")
+    return _mixed(user, assistance.mean, assistance.share)
+
+
+def _mixed(user: Command, other: Command, share: float) -> Command:
     return Command(
-        (1.0 - share) * user.v + share * assistance.mean.v,
-        (1.0 - share) * user.w + share * assistance.mean.w,
+        (1.0 - share) * user.v + share * other.v, (1.0 - share) * user.w + share * other.w
     )
 
 
-ARBITRATIONS: dict[Literal["takeover", "augment", "blend"], Arbitration] = {
+ARBITRATIONS: dict[ArbitrationKind, Arbitration] = {
     "takeover": takeover,
     "augment": augment,
     "blend": blend,
+    "blend-learnt": blend_learnt,
 }

@@ -140,6 +140,27 @@ def test_options_are_for_a_model_of_ones_own():
     assert other.model.options == {"k": 3}
 
 
+def test_a_learnt_level_needs_a_model_that_learns_one():
+    """Also where a group has a model of its own; a model of one's own may learn one."""
+    shared = {"limited": {}, "taught": {"assistant": "demonstrator", "training": True},
+              "shared": {"assistant": "model", "arbitration": "blend-learnt"}}  # fmt: skip
+    laps = ("limited", "taught", "shared")
+    for use in ("lad-level", "my.lab:model"):
+        assert _study(*laps, conditions=shared, model={"use": use}).model.use == use
+    with pytest.raises(ValidationError, match="lad-correction learns no level of assistance"):
+        _study(*laps, conditions=shared, model={"use": "lad-correction"})
+    groups = {"a": {}, "b": {"model": {"use": "lad"}}}
+    with pytest.raises(ValidationError, match="lad learns no level of assistance"):
+        _study(*laps, conditions=shared, model={"use": "lad-level"}, groups=groups)
+
+
+@pytest.mark.parametrize("use", ["lad", "lad-correction", "lad-level"])
+def test_a_shipped_model_has_to_be_taught_before_it_helps(use):
+    """Whichever it is."""
+    with pytest.raises(ValidationError, match="has learnt nothing yet"):
+        _study("limited", "helped", model={"use": use})
+
+
 def test_ages_must_be_possible():
     """A mean outside the range, and an sd no distribution in the range has, are refused."""
     for age in ({"mean": 50}, {"sd": 12}):

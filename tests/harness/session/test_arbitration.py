@@ -1,11 +1,13 @@
 """The driver's and the assistant's commands become one."""
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from harness.session.arbitration import augment, blend, takeover
+from harness.session.arbitration import augment, blend, blend_learnt, takeover
 from lad.assistant import NO_ASSISTANCE, Assistance
 from lad.command import Command
+from protocols.files.errors import InputError
 from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
 
 commands = st.builds(
@@ -49,3 +51,18 @@ def test_who_says_no_probability_has_all_of_a_blend(user, helper):
     """A demonstrator's help counts whole, and nothing of it counts when there is none."""
     assert blend(user, Assistance(helping=True, command=helper)) == helper
     assert blend(user, NO_ASSISTANCE) == user
+
+
+@given(user=commands, mean=commands, p=st.floats(0.0, 1.0), share=st.floats(0.0, 1.0))
+def test_a_learnt_level_mixes_as_a_probability_does(user, mean, p, share):
+    """The same mixture, with the share that was learnt in place of p(h)."""
+    said = Assistance(helping=p >= 0.5, p_help=p, mean=mean, share=share)
+    assert blend_learnt(user, said) == blend(user, said._replace(p_help=share))
+
+
+def test_a_learnt_level_that_is_not_there_is_refused():
+    """Never another share in its place; a demonstrator needs none."""
+    with pytest.raises(InputError, match="this model learns no level; allowed: lad-level"):
+        blend_learnt(Command(0, 0), Assistance(helping=True, p_help=0.7, mean=Command(0.2, 0)))
+    helper = Command(0.2, -0.5)
+    assert blend_learnt(Command(0, 0), Assistance(helping=True, command=helper)) == helper
