@@ -22,7 +22,8 @@ class GroupResults:
     Attributes
     ----------
     flow
-        One row per group: group, recorded, refused, excluded, analysed.
+        One row per group: group, recorded, refused, excluded, reasons (of the exclusions, with
+        how many people each, in words), analysed.
     tests
         Log lap times of each condition between two groups, and the contrast of each condition with
         the reference between them (group x condition), each by the rank-sum test.
@@ -71,8 +72,11 @@ def _flow(frames: StudyFrames, names: tuple[str, ...]) -> pd.DataFrame:
     for name in names:
         mine = people["group"] == name
         counts = (int(mine.sum()), int((mine & no).sum()), int((mine & out).sum()))
-        rows.append((name, *counts, counts[0] - counts[1] - counts[2]))
-    return pd.DataFrame(rows, columns=["group", "recorded", "refused", "excluded", "analysed"])
+        why = people.loc[mine & out, "exclusion_reason"].fillna("no reason recorded")
+        reasons = "; ".join(f"{reason}: {n}" for reason, n in sorted(why.value_counts().items()))
+        rows.append((name, *counts, reasons, counts[0] - counts[1] - counts[2]))
+    columns = ["group", "recorded", "refused", "excluded", "reasons", "analysed"]
+    return pd.DataFrame(rows, columns=columns)
 
 
 def _tests(frames: StudyFrames, laps: pd.DataFrame, group: str, reference: str) -> list[TestResult]:

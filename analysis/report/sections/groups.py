@@ -5,7 +5,8 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from analysis.report.blocks import Block, Paragraph, Remarks, Section, Shown, table
+from analysis.figures.flow_diagram import flow_figure
+from analysis.report.blocks import Block, Paragraph, Picture, Remarks, Section, Shown, table
 from analysis.report.numbers import count, interval, number, p_value
 from analysis.results import StudyResults
 from analysis.stats.result import TestResult
@@ -22,6 +23,7 @@ def group_section(results: StudyResults) -> Section | None:
             "rank-sum test of people's log lap times, and of their contrasts with the reference "
             "condition (group x condition)."
         ),
+        _picture(groups.flow),
         table("groups_flow", "Participants by group.", groups.flow, _FLOW),
     ]
     frame = _frame(groups.tests, groups.p_holm)
@@ -35,6 +37,20 @@ def group_section(results: StudyResults) -> Section | None:
         methods = dict.fromkeys(found.method for found in groups.models)
         blocks.append(Remarks(tuple(f"{m[0].upper()}{m[1:]}." for m in methods)))
     return Section("groups", "Groups", tuple(blocks))
+
+
+def _picture(flow: pd.DataFrame) -> Picture:
+    said = [
+        f"{row.group}: {row.recorded} recorded, {row.refused} refused consent, "
+        f"{row.excluded} excluded, {row.analysed} analysed"
+        for row in flow.itertuples()
+    ]
+    return Picture(
+        name="groups_flow_diagram",
+        caption="Participants of each group, from allocation to analysis.",
+        alternative=f"{'. '.join(said)}.",
+        figure=flow_figure(flow),
+    )
 
 
 def _frame(found: Sequence[TestResult], p_holm: Sequence[float]) -> pd.DataFrame:
@@ -60,6 +76,7 @@ _FLOW = [
         Shown(name, lambda r, name=name: count(r[name]))  # type: ignore[misc]
         for name in ("recorded", "refused", "excluded", "analysed")
     ),
+    Shown("excluded because", lambda r: r["reasons"], words=True),
 ]
 _RATIO = [
     Shown("contrast", lambda r: r["contrast"], words=True),
