@@ -1,5 +1,8 @@
 """Participants of each group, from allocation to analysis (CONSORT 2010's flow diagram)."""
 
+from collections.abc import Hashable, Mapping
+from typing import Any
+
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -46,7 +49,7 @@ def flow_figure(flow: pd.DataFrame) -> Figure:
     return figure
 
 
-def _boxes(group: dict[str, object], fits: int) -> tuple[str, str, str]:
+def _boxes(group: Mapping[Hashable, Any], fits: int) -> tuple[str, str, str]:
     lost = [f"consent refused: {group['refused']}", f"excluded: {group['excluded']}"]
     lost += [f"  {reason}" for reason in str(group["reasons"]).split("; ") if reason]
     return (
@@ -57,8 +60,9 @@ def _boxes(group: dict[str, object], fits: int) -> tuple[str, str, str]:
 
 
 def _box(axes: Axes, x: float, y: float, text: str) -> None:
-    frame = {"boxstyle": "square,pad=0.45", "facecolor": "white", "edgecolor": BLACK,
-             "linewidth": 0.8}  # fmt: skip
+    frame: dict[str, Any] = {
+        "boxstyle": "square,pad=0.45", "facecolor": "white", "edgecolor": BLACK, "linewidth": 0.8
+    }  # fmt: skip
     axes.text(x, y, text, ha="center", va="center", fontsize=9, linespacing=1.25, bbox=frame)
 
 

@@ -33,8 +33,10 @@ def test_boxes_are_in_the_figure_and_apart(names):
     drawn = [box for _, box in boxes(figure)]
     assert len(drawn) == 1 + 3 * len(names)
     for i, one in enumerate(drawn):
-        assert 0 <= one.x0 and one.x1 <= figure.bbox.width
-        assert 0 <= one.y0 and one.y1 <= figure.bbox.height
+        assert one.x0 >= 0
+        assert one.x1 <= figure.bbox.width
+        assert one.y0 >= 0
+        assert one.y1 <= figure.bbox.height
         for other in drawn[i + 1 :]:
             assert not one.overlaps(other)
 
