@@ -140,6 +140,13 @@ def make_respondent(name: str, setup: RespondentSetup, code: Code = ()) -> Respo
     ------
     InputError
         When there is no such respondent, or it cannot answer one of the questions.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> setup = RespondentSetup((), np.random.default_rng(0))
+    >>> type(make_respondent("ordinal", setup)).__name__
+    'OrdinalRespondent'
     """
     return cast("Respondent", _make("respondent", ("answer",), name, setup, code))
 

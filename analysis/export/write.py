@@ -46,6 +46,24 @@ def export_study(
     InputError
         When the study, the format, what to include or the licence cannot be used, or ``out`` is
         there already; nothing is left behind then.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from harness.running.runner import run_study
+    >>> from harness.session.study_run import StudyRun
+    >>> from protocols.load import resolve_study
+    >>> work = tempfile.TemporaryDirectory()
+    >>> protocol, study = Path(work.name, "brief.yaml"), Path(work.name, "study")
+    >>> _ = protocol.write_text(
+    ...     "{schema: 1, name: brief, title: Two seconds, conditions: {free: {}}, "
+    ...     "laps: [{condition: free, time_limit_s: 2}], cohort: {participants: 1}}"
+    ... )
+    >>> _ = run_study(StudyRun(resolve_study(str(protocol)), seed=0), study, jobs=1)
+    >>> export_study(study, "frictionless", Path(work.name, "shared"))
+    >>> sorted(path.name for path in Path(work.name, "shared").iterdir())[-3:]
+    ['participants.csv', 'steps.csv.gz', 'study.yaml']
+    >>> work.cleanup()
     """
     check_includes(include)
     write = format_named(format_name)
