@@ -17,9 +17,10 @@ test: $(VENV)/installed-test  ## Run every test and check, and build the site, s
 tests: $(VENV)/installed-test
 	$(BIN)/python -m pytest -m "not slow" $(ALL_CORES) --hypothesis-seed 0
 
-test-long: $(VENV)/installed-test  ## Run the tests that take minutes, and every test with the lowest versions
+test-long: $(VENV)/installed-test  ## Run the tests that take minutes, and every test with the lowest versions and later Pythons
 	$(BIN)/python -m pytest -m slow $(ALL_CORES) --hypothesis-seed 0
 	.ci/lowest
+	.ci/pythons
 	.ci/rocrate
 
 check: $(VENV)/installed-test
