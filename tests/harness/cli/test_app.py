@@ -27,10 +27,10 @@ def test_help_and_version_come_before_any_command(lad_study):
 
 
 def _outside(*arguments, cwd, before="pass", **environment):
-    """Run the command line in a process of its own."""
+    """Run the command line in a process of its own, without the working directory in its path."""
     code = f"{before}; from harness.cli import main; main()"
     return subprocess.run(  # noqa: S603  # our own command
-        [sys.executable, "-c", code, *map(str, arguments)],
+        [sys.executable, "-P", "-c", code, *map(str, arguments)],
         cwd=cwd,
         env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[3]), **environment},
         capture_output=True,
