@@ -151,7 +151,7 @@ def _shadow_did_not_drive(folder):
 
 def _identities_lie_apart(study):
     """Look for a platform's id: in one file beside the study; other parameters are nowhere."""
-    with sqlite3.connect(study.private / "identities.sqlite") as database:
+    with contextlib.closing(sqlite3.connect(study.private / "identities.sqlite")) as database:
         assert database.execute("select * from ids").fetchall() == [
             ("P0001", "PROLIFIC_PID", "someone-7")
         ]
