@@ -169,12 +169,14 @@ class _Dataset:
         self._file = self._frames_in_file = 0
         self._data = _Parts(folder / _DATA.format(0), FRAMES_PER_PART)
         self._about = _Parts(folder / _EPISODES, EPISODES_PER_PART)
+        self._episodes: list[dict[str, Any]] = []
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
         self._data.close()
+        self._flush()
         self._about.close()
 
     def add(self, lap: LapSteps) -> None:
@@ -185,10 +187,23 @@ class _Dataset:
             self._data = _Parts(self._folder / _DATA.format(self._file), FRAMES_PER_PART)
         columns = dict(self.made.columns(lap.steps)) | self._indices(lap)
         self._data.add(pa.table({name: _array(values) for name, values in columns.items()}))
-        self._about.add(self._episode(lap, columns))
+        self._episodes.append(self._episode(lap, columns))
         self.episodes += 1
         self.frames += len(lap.steps)
         self._frames_in_file += len(lap.steps)
+        if len(self._episodes) == EPISODES_PER_PART:
+            self._flush()
+
+    def _flush(self) -> None:
+        if not self._episodes:
+            return
+        # What is missing in every lap of a part has no type of its own.
+        columns = {
+            name: pa.array([row[name] for row in self._episodes], self._types.get(name))
+            for name in self._episodes[0]
+        }
+        self._about.add(pa.table(columns))
+        self._episodes.clear()
 
     def _indices(self, lap: LapSteps) -> dict[str, NDArray[Any]]:
         count, task = len(lap.steps), self._tasks[str(lap.lap["condition"])]
@@ -201,7 +216,7 @@ class _Dataset:
             "task_index": np.full(count, task, dtype=np.int64),
         }
 
-    def _episode(self, lap: LapSteps, columns: Mapping[str, NDArray[Any]]) -> pa.Table:
+    def _episode(self, lap: LapSteps, columns: Mapping[str, NDArray[Any]]) -> dict[str, Any]:
         count = len(lap.steps)
         row: dict[str, Any] = {
             "episode_index": self.episodes,
@@ -221,8 +236,7 @@ class _Dataset:
             own = Moments()
             own.add(numbers)
             row |= {f"stats/{name}/{key}": value for key, value in own.as_stats().items()}
-        # What is missing in a lap has no type of its own.
-        return pa.table({name: pa.array([row[name]], self._types.get(name)) for name in row})
+        return row
 
 
 def _info(fps: int, tasks: int, done: _Dataset) -> dict[str, Any]:
