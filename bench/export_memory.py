@@ -23,12 +23,13 @@ from analysis.export.registry import SHIPPED
 from protocols.record.reader import Study, open_study
 from protocols.record.rows import participant_id
 
+# Linux counts the parent's memory in a child's ``ru_maxrss``; VmHWM begins anew with the program.
 EXPORT = """
-import resource, sys
+import sys
 from pathlib import Path
 from analysis.export.write import export_study
 export_study(Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3]))
-print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+print(Path("/proc/self/status").read_text().partition("VmHWM:")[2].split()[0])
 """
 
 
@@ -48,7 +49,7 @@ def repeated(source: Study, people: int, steps: int, folder: Path) -> None:
     """
     (folder / "sessions").mkdir(parents=True)
     shutil.copy(source.folder / "study.yaml", folder)
-    names = source.sessions()
+    names = source.sessions()[:people]
     ours = [(participant_id(i + 1), names[i % len(names)]) for i in range(people)]
     tables = {"participants": source.participants, "laps": source.laps, "surveys": source.surveys}
     for name, table in tables.items():
@@ -82,7 +83,7 @@ def peak_mb(study: Path, name: str, out: Path) -> float:
         [sys.executable, "-c", EXPORT, study, name, out],
         capture_output=True, text=True, check=True,
     )  # fmt: skip
-    return float(ended.stdout)
+    return float(ended.stdout) / 1024
 
 
 def main() -> None:

@@ -11,14 +11,14 @@ from protocols.course.schema import Course, Point
 WALL, FURNITURE = "#4a4a4a", "#b8b8b8"
 
 
-def draw_plan(axes: Axes, course: Course) -> None:
-    """Draw a course to scale, in metres."""
+def draw_plan(axes: Axes, course: Course, wall: str = WALL) -> None:
+    """Draw a course to scale, in metres, its walls in a colour."""
     names = {piece.name for piece in course.furniture}
     boxes = obstacle_boxes(course)
     walls = [box.corners() for box in boxes if box.name not in names]
     furniture = [box.corners() for box in boxes if box.name in names]
     axes.add_collection(PolyCollection(furniture, facecolors=FURNITURE, edgecolors="none"))
-    axes.add_collection(PolyCollection(walls, facecolors=WALL, edgecolors=WALL, linewidths=0.3))
+    axes.add_collection(PolyCollection(walls, facecolors=wall, edgecolors=wall, linewidths=0.3))
     gates = [(gate.left, gate.right) for gate in course.gates]
     axes.add_collection(LineCollection(gates, colors=GREY, linewidths=0.8, linestyles="--"))
     for gate in course.gates:

@@ -113,7 +113,7 @@ def _draft_route(drawn: "RosMap", picture: Path) -> None:
 def _write_course(drawn: "RosMap", route: Path, out: Path, picture: Path) -> None:
     from analysis.figures.files import png
     from analysis.figures.imported_map import map_with_course
-    from harness.world.step_cost import step_cost
+    from harness.world.step_cost import step_cost_ratio
     from protocols.course.centreline import Centreline
     from protocols.files.dump import to_yaml
     from protocols.importing.map.course import import_course
@@ -134,7 +134,7 @@ def _write_course(drawn: "RosMap", route: Path, out: Path, picture: Path) -> Non
         complain(f"({x:.2f}, {y:.2f}): the chair touches something on the centreline there")
     before, after = done.corners
     say(f"Walls: {before} corners became {after}; {done.specks} specks dropped")
-    ratio = step_cost(done.course) / step_cost(load_course("lab-office"))
+    ratio = step_cost_ratio(done.course, load_course("lab-office"))
     say(f"A control step takes {ratio:.1f} times as long as on lab-office")
     write_whole(picture, png(map_with_course(drawn, done.course)))
     write_whole(out, to_yaml(done.course).encode())

@@ -16,6 +16,8 @@ from protocols.files.suggestion import allowed
 CLOCKS_APART_S = 1.0
 """Header and arrival this far apart are two clocks; what lies between is transport, s."""
 
+_ALLOWED = "allowed: a whole ROS 1 bag, ROS 2 folder or file (.db3), or MCAP file"
+
 
 @dataclass(frozen=True)
 class Stream:
@@ -88,10 +90,10 @@ def read_streams(path: Path, topics: Iterable[str], clock: str) -> dict[str, Str
                 message = reader.deserialize(raw, connection.msgtype)
                 found[connection.topic].append((ns, message))
         except Exception as error:  # the library raises whatever a damaged file leads to
-            raise InputError(f"{path}: is cut off or damaged: {error}") from error
+            raise InputError(f"{path}: is cut off or damaged: {error}; {_ALLOWED}") from error
         for name, pairs in found.items():
             if not pairs:
-                raise InputError(f"{path}: no message of {name} can be read")
+                raise InputError(f"{path}: no message of {name} can be read; {_ALLOWED}")
             streams[name] = _stream(name, str(there[name].msgtype), pairs, clock)
     _refuse_two_clocks(path, streams, clock)
     return streams
@@ -99,13 +101,13 @@ def read_streams(path: Path, topics: Iterable[str], clock: str) -> dict[str, Str
 
 def _opened(path: Path) -> AnyReader:
     if not path.exists():
-        raise InputError(f"{path}: no such recording")
+        raise InputError(f"{path}: no such recording; {_ALLOWED}")
     try:
         reader = AnyReader([path], default_typestore=get_typestore(Stores.ROS2_HUMBLE))
         reader.open()
     except (AnyReaderError, OSError, ValueError, AssertionError, KeyError, IndexError) as error:
         reason = str(error) or type(error).__name__
-        raise InputError(f"{path}: cannot be read as a recording: {reason}") from None
+        raise InputError(f"{path}: cannot be read as a recording: {reason}; {_ALLOWED}") from None
     return _Opened(reader)  # type: ignore[return-value]
 
 

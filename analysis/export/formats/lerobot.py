@@ -26,8 +26,10 @@ from protocols.files.errors import InputError
 FRAMES_PER_FILE = 200_000
 """About 50 MB; the format's own writer begins a new file at 100 MB."""
 
+FRAMES_PER_PART = 20_000
 EPISODES_PER_PART = 100
-"""How many episodes' rows are in memory before they are written."""
+"""How many rows are in memory before they are written: a file's writer keeps something of every
+part until the file ends, so that small parts fill the memory."""
 
 _ABOUT_LAPS = ("participant", "lap", "condition", "practice", "completed", "lap_time_s")
 
@@ -62,8 +64,7 @@ def write(content: Content, folder: Path, tell: Tell) -> None:
     fps = frames_per_second(content.study.protocol.control_period_s)
     tasks = {str(name): i for i, name in enumerate(sorted(content.study.protocol.conditions))}
     sentences = {name: task_sentence(content, name) for name in tasks}
-    made = Frames.of(content.step_fields)
-    with _Dataset(folder, fps, made, tasks, sentences) as dataset:
+    with _Dataset(folder, fps, content, tasks, sentences) as dataset:
         for lap in content.laps_with_steps():
             tell(f"Steps of {lap.lap['participant']}, lap {lap.lap['lap']}")
             if len(lap.steps):
@@ -75,7 +76,7 @@ def write(content: Content, folder: Path, tell: Tell) -> None:
     frame.to_parquet(folder / "meta" / "tasks.parquet")
     stats = {name: moments.as_stats() for name, moments in dataset.moments.items()}
     _write_json(folder / "meta" / "stats.json", stats)
-    _write_json(folder / "meta" / "info.json", _info(fps, len(tasks), made, dataset))
+    _write_json(folder / "meta" / "info.json", _info(fps, len(tasks), dataset))
     write_about(content, folder, _HOW)
 
 
@@ -107,21 +108,32 @@ def task_sentence(content: Content, condition: str) -> str:
 
 
 class _Parts:
-    """A Parquet file that is written part by part; its columns are those of the first part."""
+    """A Parquet file that is written in parts of some rows; its columns are those of the first."""
 
-    def __init__(self, path: Path) -> None:
-        self._path = path
+    def __init__(self, path: Path, rows: int) -> None:
+        self._path, self._rows = path, rows
+        self._waiting: list[pa.Table] = []
         self._writer: pq.ParquetWriter | None = None
 
     def add(self, table: pa.Table) -> None:
-        """Write the next rows."""
+        """Take the next rows; write them when there are enough for a part."""
+        self._waiting.append(table)
+        if sum(map(len, self._waiting)) >= self._rows:
+            self._write()
+
+    def _write(self) -> None:
+        if not self._waiting:
+            return
+        part = pa.concat_tables(self._waiting).combine_chunks()
+        self._waiting.clear()
         if self._writer is None:
             self._path.parent.mkdir(parents=True, exist_ok=True)
-            self._writer = pq.ParquetWriter(self._path, table.schema)
-        self._writer.write_table(table)
+            self._writer = pq.ParquetWriter(self._path, part.schema)
+        self._writer.write_table(part)
 
     def close(self) -> None:
-        """End the file."""
+        """Write what waits, and end the file."""
+        self._write()
         if self._writer is not None:
             self._writer.close()
         self._writer = None
@@ -132,6 +144,8 @@ class _Dataset:
 
     Attributes
     ----------
+    made
+        What the frames hold.
     episodes, frames
         How many have been written.
     moments
@@ -142,25 +156,27 @@ class _Dataset:
         self,
         folder: Path,
         fps: int,
-        made: Frames,
+        content: Content,
         tasks: Mapping[str, int],
         sentences: Mapping[str, str],
     ) -> None:
-        self._folder, self._fps, self._made = folder, fps, made
+        self._folder, self._fps = folder, fps
+        self.made = Frames.of(content.step_fields)
+        self._types = {f.name: f.type for f in content.laps.fields if f.name in _ABOUT_LAPS}
         self._tasks, self._sentences = tasks, sentences
         self.episodes = self.frames = 0
         self.moments: dict[str, Moments] = {}
         self._file = self._frames_in_file = 0
-        self._pending: list[dict[str, Any]] = []
-        self._data = _Parts(folder / _DATA.format(0))
-        self._about = _Parts(folder / _EPISODES)
+        self._data = _Parts(folder / _DATA.format(0), FRAMES_PER_PART)
+        self._about = _Parts(folder / _EPISODES, EPISODES_PER_PART)
+        self._episodes: list[dict[str, Any]] = []
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._flush()
         self._data.close()
+        self._flush()
         self._about.close()
 
     def add(self, lap: LapSteps) -> None:
@@ -168,20 +184,26 @@ class _Dataset:
         if self._frames_in_file >= FRAMES_PER_FILE:
             self._data.close()
             self._file, self._frames_in_file = self._file + 1, 0
-            self._data = _Parts(self._folder / _DATA.format(self._file))
-        columns = dict(self._made.columns(lap.steps)) | self._indices(lap)
+            self._data = _Parts(self._folder / _DATA.format(self._file), FRAMES_PER_PART)
+        columns = dict(self.made.columns(lap.steps)) | self._indices(lap)
         self._data.add(pa.table({name: _array(values) for name, values in columns.items()}))
-        self._pending.append(self._episode(lap, columns))
+        self._episodes.append(self._episode(lap, columns))
         self.episodes += 1
         self.frames += len(lap.steps)
         self._frames_in_file += len(lap.steps)
-        if len(self._pending) == EPISODES_PER_PART:
+        if len(self._episodes) == EPISODES_PER_PART:
             self._flush()
 
     def _flush(self) -> None:
-        if self._pending:
-            self._about.add(_episode_table(self._pending))
-            self._pending.clear()
+        if not self._episodes:
+            return
+        # What is missing in every lap of a part has no type of its own.
+        columns = {
+            name: pa.array([row[name] for row in self._episodes], self._types.get(name))
+            for name in self._episodes[0]
+        }
+        self._about.add(pa.table(columns))
+        self._episodes.clear()
 
     def _indices(self, lap: LapSteps) -> dict[str, NDArray[Any]]:
         count, task = len(lap.steps), self._tasks[str(lap.lap["condition"])]
@@ -217,14 +239,7 @@ class _Dataset:
         return row
 
 
-def _episode_table(rows: list[dict[str, Any]]) -> pa.Table:
-    """Return episodes as a table; a lap time may be missing in every one of them."""
-    table = pa.Table.from_pylist(rows)
-    at = table.column_names.index("lap_time_s")
-    return table.set_column(at, "lap_time_s", table["lap_time_s"].cast(pa.float64()))
-
-
-def _info(fps: int, tasks: int, made: Frames, done: _Dataset) -> dict[str, Any]:
+def _info(fps: int, tasks: int, done: _Dataset) -> dict[str, Any]:
     return {
         "codebase_version": "v3.0",
         "robot_type": "wheelchair",
@@ -238,7 +253,7 @@ def _info(fps: int, tasks: int, made: Frames, done: _Dataset) -> dict[str, Any]:
         "splits": {"train": f"0:{done.episodes}"},
         "data_path": "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet",
         "video_path": None,
-        "features": dict(_features(made)),
+        "features": dict(_features(done.made)),
     }
 
 

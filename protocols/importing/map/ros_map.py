@@ -129,6 +129,11 @@ def _pixels(image: Path, where: str) -> tuple[NDArray[np.float64], NDArray[np.bo
                 raise InputError(
                     f"{where}: {picture.width} x {picture.height} pixels; allowed: {MOST_PIXELS}"
                 )
+            if picture.mode == "F":
+                raise InputError(f"{where}: {image} has real numbers; allowed: 8 or 16 bits")
+            if picture.mode.startswith("I"):  # converted, 16 bits would be cut off at 255
+                deep = np.asarray(picture, dtype=np.float64) / 65535
+                return deep, np.ones(deep.shape, dtype=np.bool_)
             grey = np.asarray(picture.convert("LA"), dtype=np.float64) / 255
     except FileNotFoundError:
         raise InputError(f"{where}: there is no file {image}; allowed: a PGM or PNG") from None

@@ -8,11 +8,14 @@ import pytest
 from harness.importing.guess import guess_bag_mapping
 from harness.importing.mapping import BagMapping
 from harness.importing.study import import_bags
+from harness.running.runner import run_study
+from harness.session.study_run import StudyRun
 from lad.inputs import INPUT_NAMES
 from lad.lad_assistant import LADAssistant
 from protocols.course.centreline import Centreline
 from protocols.files.errors import InputError
 from protocols.importing.mapping_file import read_mapping
+from protocols.load import resolve_study
 from protocols.record.check import check_study
 from protocols.record.reader import open_study
 from protocols.shipped import shipped_text
@@ -89,6 +92,33 @@ def test_the_recorded_lap_teaches(bring_in):
                 command = None if step["a_v"] is None else (step["a_v"], step["a_w"])
                 by_hand.learn(step["h"] == 1, command)
     assert by_hand.to_bytes() == model.to_bytes()
+
+
+BORROWS = """\
+schema: 1
+name: borrows
+title: Helped by a model that a recording taught
+cohort: {participants: 1, driver: {use: autonomous}, respondent: null}
+models: {theirs: {from: file, path: "study/sessions/{participant}/model.npz"}}
+conditions:
+  lent: {limitation: {right_turn_rad_s: 0.15}, assistant: model, model: theirs}
+laps: [{condition: lent, time_limit_s: 8}]
+"""
+
+
+def test_a_study_borrows_the_model_that_a_recording_taught(bring_in, tmp_path):
+    """In every step of its lap the answer is that of the saved model, which learns no more."""
+    _, taught = bring_in()
+    (tmp_path / "borrows.yaml").write_text(BORROWS)
+    run = StudyRun(resolve_study(str(tmp_path / "borrows.yaml")), 1)
+    assert run_study(run, tmp_path / "helped", 1).finished == 1
+    model = LADAssistant.from_bytes(taught.model_bytes("P0001"))
+    model.start_lap()
+    steps = open_study(tmp_path / "helped").steps("P0001", 0).to_pylist()
+    for step in steps:
+        answer = model.assist(np.array([step[name] for name in INPUT_NAMES]))
+        assert (answer.p_help, answer.helping) == (step["p_help"], step["control"] == "model")
+    assert len({step["p_help"] for step in steps}) > 10
 
 
 def test_an_imported_study_is_whole(bring_in):
@@ -220,13 +250,14 @@ def test_two_clocks_are_named(bring_in):
         bring_in(offset_s=3600.0)
 
 
-@pytest.mark.parametrize("storage", ["ros1", "mcap"])
+@pytest.mark.parametrize("storage", ["ros1", "sqlite", "mcap"])
 def test_a_file_cut_in_the_middle_is_one_line(storage, make_bag, mapping, tmp_path):
     """Half a file is no recording."""
     bag = make_bag(storage)
-    path = bag if bag.is_file() else next(bag.glob("*.mcap"))
+    path = bag if bag.is_file() else next(p for p in bag.iterdir() if p.suffix != ".yaml")
     path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
-    with pytest.raises(InputError, match=r"cannot be read as a recording|cut off or damaged"):
+    said = r"(cannot be read as a recording|is cut off or damaged): .*; allowed: a whole ROS 1 bag"
+    with pytest.raises(InputError, match=said):
         import_bags([path], mapping(), tmp_path / "study", lambda _: None)
     assert not (tmp_path / "study").exists()
 

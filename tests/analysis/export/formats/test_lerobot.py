@@ -8,8 +8,10 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
+from analysis.export.formats import lerobot
 from analysis.export.formats.lerobot import frames_per_second
 from analysis.export.frames import VECTORS
+from analysis.export.write import export_study
 from protocols.files.errors import InputError
 
 
@@ -80,6 +82,17 @@ def test_statistics_are_those_of_all_frames(exported):
         np.testing.assert_allclose(stats[name]["std"], values.std(axis=0), atol=1e-9)
         np.testing.assert_allclose(stats[name]["max"], values.max(axis=0))
         assert stats[name]["count"] == [len(values)]
+
+
+def test_many_laps_are_few_parts(study, tmp_path, monkeypatch):
+    """A part holds many laps: what a file's writer keeps of each does not fill the memory."""
+    monkeypatch.setattr(lerobot, "FRAMES_PER_PART", 2000)
+    export_study(study.folder, "lerobot", tmp_path / "out")
+    data = pq.ParquetFile(tmp_path / "out" / "data" / "chunk-000" / "file-000.parquet")
+    parts = [data.metadata.row_group(i).num_rows for i in range(data.num_row_groups)]
+    longest = max(study.laps["steps"].to_pylist())
+    assert all(2000 <= part < 2000 + longest for part in parts[:-1])
+    assert 1 < len(parts) < len(study.laps) / 2
 
 
 def test_steps_that_are_no_frames_a_second_are_refused():

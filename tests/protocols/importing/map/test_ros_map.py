@@ -45,6 +45,27 @@ def test_what_is_transparent_is_unknown(read):
     assert not drawn.occupied.any()
 
 
+@pytest.mark.parametrize("ending", ["png", "pgm"])
+def test_sixteen_bits_are_read_as_eight(read, ending, tmp_path):
+    """An unknown pixel stays unknown; cut off at 255 it would be free."""
+    grey = np.array([[254, 205], [0, 254]], dtype=np.uint16)
+    wanted = read(grey)
+    Image.fromarray(grey * 257).save(tmp_path / f"deep.{ending}")
+    head = HEAD.format(yaw=0.0, more="free_thresh: 0.196\n").replace("m.png", f"deep.{ending}")
+    (tmp_path / "deep.yaml").write_text(head)
+    found = read_map(tmp_path / "deep.yaml")
+    assert found.free.tolist() == wanted.free.tolist()
+    assert found.occupied.tolist() == wanted.occupied.tolist()
+
+
+def test_an_image_of_real_numbers_is_refused(read, tmp_path):
+    """One line: nobody knows what they mean."""
+    read([[254, 0]])
+    Image.fromarray(np.ones((2, 2), dtype=np.float32)).save(tmp_path / "m.png", format="TIFF")
+    with pytest.raises(InputError, match="has real numbers; allowed: 8 or 16 bits"):
+        read_map(tmp_path / "m.yaml")
+
+
 @pytest.mark.parametrize("yaw", [0.0, 0.7, -2.0])
 def test_a_turned_origin_is_obeyed(read, yaw):
     """There and back again is where one was; the corner is the origin."""
