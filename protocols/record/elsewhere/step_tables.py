@@ -34,8 +34,12 @@ from protocols.record.study_tables import StudyTables
 _TIMES = replace(STEPS, required=("t_s",))
 NO_ROW = "the table has no row"
 """What is said of a step table in which nothing is recorded."""
-UNLIKE = "its length does not fit its lap: another clock, another lap's table, or cut? It is used"
-"""What is said of a step table that differs from its lap by more than a step or two."""
+_MAYBE = "another lap's table, or some steps cut? They are used"
+UNLIKE = f"the times end up to 1 s or 5% off the lap's own: a clock started by hand, {_MAYBE}"
+"""What is said of a step table that lasts longer or shorter than its lap by more than a step or two
+and by less than a contradiction."""
+OTHER_NUMBER = f"there are more or fewer than the lap's row says: {_MAYBE}"
+"""What is said of a step table that has another number of steps than its lap."""
 
 
 class LapSteps(NamedTuple):
@@ -138,7 +142,7 @@ class ForeignSteps:
         if row and (by := not_planned(table, row)):
             said.append(f"commands of the {by} count, and the lap's condition has no such help")
         if row and told and told.lasts(row) is False and np.isfinite(clock.t_s).any():
-            said.append(UNLIKE)
+            said.append(UNLIKE if told.spans and row.lasted else OTHER_NUMBER)
         return LapSteps(table, (*clock.remarks, *said), placement)
 
     def path(self, participant: str, lap: int) -> Path | None:

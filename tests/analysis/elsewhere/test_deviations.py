@@ -314,10 +314,10 @@ DEVIATIONS: dict[str, Deviation] = {
     "two people's steps exchanged": Deviation(
         _all_of_two_people_exchanged, "changed", "fits lap 1 of 04, and not lap 1"),
     "one lap of two people exchanged": Deviation(
-        _exchanged((0, 1), (2, 1)), "changed", "its length does not fit its lap"),
+        _exchanged((0, 1), (2, 1)), "changed", "off the lap's own"),
     "folders and laps exchanged": Deviation(
-        _folders_and_laps_exchanged, "changed", "its length does not fit its lap"),
-    "three steps cut off": Deviation(_cut, "changed", "its length does not fit its lap"),
+        _folders_and_laps_exchanged, "changed", "off the lap's own"),
+    "three steps cut off": Deviation(_cut, "changed", "off the lap's own"),
     "a person's column": Deviation(_naming("participant", lambda who, _: who), "same"),
     "another person's column": Deviation(
         _naming("participant", lambda who, _: who, _all_as_long, _exchanged((0, 1), (2, 1))),
