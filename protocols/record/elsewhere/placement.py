@@ -131,6 +131,7 @@ class Floor:
                 return words, metres
         spread = np.ptp(known, axis=0)
         degrees = (np.abs(known) <= np.array([180, 180])).all() and (spread < 0.01).all()
+        degrees = degrees and np.abs(known).max() >= 1  # nobody drives at 0 N 0 E: kilometres
         if len(known) > 1 and degrees and (spread > 0).any():
             return "latitude and longitude", False
         return "", False
