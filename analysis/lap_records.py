@@ -187,7 +187,7 @@ def _read(study: Study, places: Sequence[_Where]) -> _Piece:
         row |= {m.name: m.of(steps) for m in MEASURES}
         kept = _kept(steps, participant, lap, condition, placement)
         elsewhere = None if placement.on_course else placement
-        laps.append(_Lap(row, kept, (*remarks, *gaps(steps)), elsewhere))
+        laps.append(_Lap(row, kept, tuple(dict.fromkeys((*remarks, *gaps(steps)))), elsewhere))
     return _Piece(laps, unrecorded)
 
 

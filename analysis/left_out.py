@@ -6,6 +6,7 @@ import pandas as pd
 
 from analysis.frames import StudyFrames, as_frame, counted_answers, counted_laps
 from protocols.laps import WHOLE_SESSION
+from protocols.record.elsewhere.joined import unlike_completed
 from protocols.record.elsewhere.people import strangers
 
 
@@ -22,15 +23,9 @@ def _laps(frames: StudyFrames) -> Iterator[str]:
     yield from _strangers(frames, as_frame(study.laps), "lap")
     laps = counted_laps(study, frames.participants["participant"])
     yield from _conditions(frames, laps, "lap")
-    timed = frames.conditions
-    laps = laps[laps["condition"].isin(timed)]
-    finished, has_time = laps["completed"].astype(bool), laps["lap_time_s"].notna()
-    times = int((~finished & has_time).sum())
-    if times:
-        yield f"{_number(times, 'lap time')} of laps that were not finished"
-    untimed = int((finished & ~has_time).sum())
-    if untimed:
-        yield f"{_number(untimed, 'finished lap')} without a lap time"
+    laps = laps[laps["condition"].isin(frames.conditions)]
+    timed = laps["lap_time_s"].notna().to_numpy()
+    yield from unlike_completed(laps["completed"].to_numpy(dtype=bool), timed)
 
 
 def _answers(frames: StudyFrames) -> Iterator[str]:

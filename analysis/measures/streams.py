@@ -11,6 +11,7 @@ import pyarrow.compute as pc
 from numpy.typing import NDArray
 
 from analysis.measures.episodes import Episode, episodes
+from protocols.record.elsewhere.clock import NOT_INCREASING
 from protocols.record.steps import STEP_COLUMNS
 from protocols.wheelchair import MAX_SPEED, MAX_TURN_RATE
 
@@ -125,7 +126,7 @@ def _gaps(steps: Steps) -> Iterator[str]:
             yield f"{name} is not between {low:g} and {high:g} in some steps: missing there"
     t = stream(steps, "t_s")
     if len(t) > 1 and not np.isnan(t).all() and np.isnan(period(steps)):
-        yield ("t_s does not increase from step to step: measures that need the time are missing")
+        yield NOT_INCREASING
 
 
 @once_per_lap

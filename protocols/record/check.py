@@ -10,7 +10,12 @@ from protocols.order import group_of, in_words, laps_of
 from protocols.record.amendment import first_digest, plan_number
 from protocols.record.codebook import CODEBOOK_FILE, codebook_json
 from protocols.record.column import SCHEMA_VERSIONS, arrow_schema, brought_up_to_date
-from protocols.record.elsewhere.faults import Tell, foreign_faults, without_steps
+from protocols.record.elsewhere.faults import (
+    Tell,
+    foreign_faults,
+    times_unlike_completed,
+    without_steps,
+)
 from protocols.record.enrolment import purged, slot_of
 from protocols.record.header import STUDY_FILE, StudyHeader, read_header
 from protocols.record.identity import study_digest
@@ -112,7 +117,7 @@ def check_remarks(folder: Path) -> tuple[str, ...]:
         A study directory that ``check_study`` finds nothing wrong with.
     """
     study = open_study(folder)
-    return (*study.remarks, *without_steps(study))
+    return (*study.remarks, *without_steps(study), *times_unlike_completed(study))
 
 
 def _header_faults(folder: Path, header: StudyHeader, again: str) -> Iterator[str]:

@@ -237,6 +237,8 @@ class Study:
         path = self.folder / SESSIONS / participant
         # Listing thousands of sessions for every lap would cost more than reading it.
         if path.name != participant or is_partial(path) or not path.is_dir():
+            if self._foreign and participant in self._tables.people:
+                raise InputError(f"{self.folder}: {participant} has no session folder, so no steps")
             hint = listed(self.sessions())
             raise InputError(f"{self.folder}: no participant {participant!r}; {hint}")
         return path

@@ -19,6 +19,10 @@ _EPOCH = 1e8
 """A clock beyond this many seconds counts from 1970 and not from a program's start."""
 
 
+NOT_INCREASING = "t_s does not increase from step to step: measures that need the time are missing"
+"""What is said of times out of which no step has a length."""
+
+
 class Clock(NamedTuple):
     """Times of a lap's steps from its start, s, and what was done to them, in words."""
 

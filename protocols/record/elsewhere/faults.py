@@ -4,11 +4,13 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.compute as pc
 
 from protocols.files.errors import InputError
 from protocols.laps import WHOLE_SESSION
+from protocols.record.elsewhere.joined import unlike_completed
 from protocols.record.elsewhere.people import strangers
 from protocols.record.elsewhere.placement import said_of
 from protocols.record.merge import LAPS_TABLE, SURVEYS_TABLE
@@ -81,6 +83,13 @@ def without_steps(study: Study) -> Iterator[str]:
     if absent and len(absent) < len(laps):
         names = ", ".join(absent[:3]) + (", ..." if len(absent) > 3 else "")
         yield f"{len(absent)} of {len(laps)} laps have no step table ({names})"
+
+
+def times_unlike_completed(study: Study) -> Iterator[str]:
+    """Name the laps of which lap time and ``completed`` do not go together, in words."""
+    times = study.laps["lap_time_s"].cast(pa.float64()).to_numpy()
+    completed = np.array(study.laps["completed"].to_pylist(), dtype=bool)
+    yield from unlike_completed(completed, ~np.isnan(times))
 
 
 def _steps(study: Study, tell: Tell | None) -> Iterator[str]:

@@ -77,7 +77,7 @@ def strays(
     """
     if not sessions.is_dir():
         return
-    loose = sorted(path.name for path in sessions.iterdir() if path.suffix == ".parquet")
+    loose = sorted(path.name for path in sessions.iterdir() if _is_table(path))
     if loose:
         yield f"{_number(len(loose), 'table')} beside the session folders ({_some(loose)})"
     folders = sorted(path for path in sessions.iterdir() if path.is_dir())
@@ -100,8 +100,14 @@ def strays(
 
 
 def _tables(folder: Path) -> list[str]:
-    names = (path.name for path in folder.iterdir() if path.suffix == ".parquet")
+    names = (path.name for path in folder.iterdir() if _is_table(path))
     return sorted(name for name in names if name not in _OTHER_TABLES)
+
+
+def _is_table(path: Path) -> bool:
+    """Return whether a file is a table, or was meant to be one of steps: steps-0.csv."""
+    name = path.name.lower()
+    return name.endswith(".parquet") or (name.startswith("steps") and path.is_file())
 
 
 def unusable_names(people: Iterable[str]) -> list[str]:

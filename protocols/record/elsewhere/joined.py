@@ -129,6 +129,22 @@ def doubtful_times(laps: pa.Table) -> Iterator[str]:
         yield f"lap_time_s and duration_s of {int(apart.sum())} finished laps contradict each other"
 
 
+def unlike_completed(completed: np.ndarray, timed: np.ndarray) -> Iterator[str]:
+    """Name, in words, lap times that are there although the lap was not finished, and the reverse.
+
+    Parameters
+    ----------
+    completed, timed
+        Which laps were finished, and which have a lap time: flags, shape (n,).
+    """
+    for n, one, what in (
+        (int((~completed & timed).sum()), "lap time", "of laps that were not finished"),
+        (int((completed & ~timed).sum()), "finished lap", "without a lap time"),
+    ):
+        if n:
+            yield f"{n} {one if n == 1 else one + 's'} {what}"
+
+
 def _numbers(table: pa.Table, name: str) -> np.ndarray:
     values = table[name].cast(pa.float64()).to_numpy()
     return np.asarray(values, dtype=np.float64)

@@ -108,12 +108,17 @@ class Floor:
         return float(off.mean())
 
     def _passes(self, xy: Points) -> bool:
-        """Return whether the way passes every gate; it is extended, as a step is where it began."""
+        """Return whether the way passes every gate; it is extended, as a step is where it began.
+
+        It goes on as over its last half metre: a single step may point anywhere where a sensor errs
+        by more than the chair moves.
+        """
         gates = GateCounter(self._course)
-        moves = np.diff(xy, axis=0)
-        moved = moves[np.abs(moves).sum(axis=1) > 0]
-        if len(moved):
-            xy = np.vstack([xy, xy[-1] + _ONWARDS * moved[-1] / np.hypot(*moved[-1])])
+        back = xy[-1] - xy
+        away = np.flatnonzero(np.hypot(*back.T) >= _ONWARDS)
+        onwards = back[away[-1]] if len(away) else back[0]
+        if onwards.any():
+            xy = np.vstack([xy, xy[-1] + _ONWARDS * onwards / np.hypot(*onwards)])
         for before, after in zip(xy[:-1].tolist(), xy[1:].tolist(), strict=True):
             gates.advance(tuple(before), tuple(after))
         return gates.finished
@@ -126,6 +131,7 @@ class Floor:
                 return words, metres
         spread = np.ptp(known, axis=0)
         degrees = (np.abs(known) <= np.array([180, 180])).all() and (spread < 0.01).all()
+        degrees = degrees and np.abs(known).max() >= 1  # nobody drives at 0 N 0 E: kilometres
         if len(known) > 1 and degrees and (spread > 0).any():
             return "latitude and longitude", False
         return "", False
@@ -137,6 +143,8 @@ class Floor:
                 for axes, turn in _AXES.items():
                     there = scale * xy @ turn.T
                     shift = self._start - scale * turn @ first if moved else np.zeros(2)
+                    if moved and np.hypot(*shift) < _TOLERANCE:  # the same place, as sensors go
+                        continue
                     by = f"moved by ({shift[0]:.1f}, {shift[1]:.1f}) m" if moved else ""
                     words = ", ".join(word for word in (unit, axes, by) if word)
                     if words:

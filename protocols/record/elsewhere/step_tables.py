@@ -1,6 +1,7 @@
 """The step tables of a study that other programs recorded, matched with its laps."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -8,10 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.compute as pc
 from numpy.typing import NDArray
 
 from protocols.files.errors import InputError
-from protocols.record.elsewhere.clock import lap_clock
+from protocols.record.elsewhere.clock import NOT_INCREASING, lap_clock
 from protocols.record.elsewhere.conform import Conformed, conform
 from protocols.record.elsewhere.folders import folders_by_person, lap_shift, strays, unusable_names
 from protocols.record.elsewhere.placement import INCOMPLETE, Floor, Placement
@@ -29,13 +31,19 @@ from protocols.record.elsewhere.whose import (
 from protocols.record.parquet import read_parquet
 from protocols.record.session import steps_file
 from protocols.record.sessions import SESSIONS, session_folders
+from protocols.record.steps import STEP_COLUMNS
 from protocols.record.study_tables import StudyTables
 
+_IN_EVERY_STEP = tuple(column.name for column in STEP_COLUMNS if not column.nullable)
 _TIMES = replace(STEPS, required=("t_s",))
 NO_ROW = "the table has no row"
 """What is said of a step table in which nothing is recorded."""
-UNLIKE = "its length does not fit its lap: another clock, another lap's table, or cut? It is used"
-"""What is said of a step table that differs from its lap by more than a step or two."""
+_MAYBE = "another lap's table, or some steps cut? They are used"
+UNLIKE = f"the times end up to 1 s or 5% off the lap's own: a clock started by hand, {_MAYBE}"
+"""What is said of a step table that lasts longer or shorter than its lap by more than a step or two
+and by less than a contradiction."""
+OTHER_NUMBER = f"there are more or fewer than the lap's row says: {_MAYBE}"
+"""What is said of a step table that has another number of steps than its lap."""
 
 
 class LapSteps(NamedTuple):
@@ -132,13 +140,16 @@ class ForeignSteps:
         said = [remark.partition(": ")[2] for remark in steps.remarks]
         if not len(table):
             said.append(NO_ROW)
+        if (np.diff(clock.t_s) <= 0).any():
+            said.append(NOT_INCREASING)
+        said += _missing(steps.table)
         if placement.on_course and not placement.whole:
             said.append(INCOMPLETE)
         row, told = self._rows.get((participant, lap)), self._tell.get((participant, lap))
         if row and (by := not_planned(table, row)):
             said.append(f"commands of the {by} count, and the lap's condition has no such help")
         if row and told and told.lasts(row) is False and np.isfinite(clock.t_s).any():
-            said.append(UNLIKE)
+            said.append(UNLIKE if told.spans and row.lasted else OTHER_NUMBER)
         return LapSteps(table, (*clock.remarks, *said), placement)
 
     def path(self, participant: str, lap: int) -> Path | None:
@@ -194,6 +205,27 @@ class ForeignSteps:
             (who, lap): _Lasted(done, tuple(s for s in times if s and math.isfinite(s)))
             for who, lap, done, *times in rows
         }
+
+
+def _missing(table: pa.Table) -> Iterator[str]:
+    """Name the columns in which some steps have no value, where every step should have one.
+
+    A column that is not recorded at all says nothing, except where a table must have it.
+    """
+    n = len(table)
+    names = []
+    for name in _IN_EVERY_STEP if n else ():
+        column = table[name]
+        if column.null_count == n and name not in STEPS.required:
+            continue
+        missing = pc.sum(pc.is_null(column, nan_is_null=True)).as_py()
+        if missing == n and name in STEPS.required:
+            yield f"no step has a value of {name}"
+        elif 0 < missing < n:
+            names.append(name)
+    if names:
+        shown = ", ".join(names[:5]) + (f", ... ({len(names)} in all)" if len(names) > 5 else "")
+        yield f"some steps have no value of {shown}: measures are of the others, or missing"
 
 
 def _floats(table: pa.Table, name: str) -> NDArray[np.float64]:

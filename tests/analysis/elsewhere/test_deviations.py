@@ -17,7 +17,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from protocols.files.errors import InputError
-from protocols.record.check import check_study
+from protocols.record.check import check_remarks, check_study
 
 Study = Any
 """``conftest.Recorded``."""
@@ -314,10 +314,10 @@ DEVIATIONS: dict[str, Deviation] = {
     "two people's steps exchanged": Deviation(
         _all_of_two_people_exchanged, "changed", "fits lap 1 of 04, and not lap 1"),
     "one lap of two people exchanged": Deviation(
-        _exchanged((0, 1), (2, 1)), "changed", "its length does not fit its lap"),
+        _exchanged((0, 1), (2, 1)), "changed", "off the lap's own"),
     "folders and laps exchanged": Deviation(
-        _folders_and_laps_exchanged, "changed", "its length does not fit its lap"),
-    "three steps cut off": Deviation(_cut, "changed", "its length does not fit its lap"),
+        _folders_and_laps_exchanged, "changed", "off the lap's own"),
+    "three steps cut off": Deviation(_cut, "changed", "off the lap's own"),
     "a person's column": Deviation(_naming("participant", lambda who, _: who), "same"),
     "another person's column": Deviation(
         _naming("participant", lambda who, _: who, _all_as_long, _exchanged((0, 1), (2, 1))),
@@ -489,11 +489,20 @@ DEVIATIONS: dict[str, Deviation] = {
         _places(lambda x, y: (x + 30, y - 20)), "changed", "likely: moved by (-30.0, 20.0) m"),
     "latitude": Deviation(
         _places(lambda x, y: (10.1 + x / 7e4, 48.2 + y / 1.1e5)), "changed", "latitude and long"),
+    "every second position": Deviation(
+        _places(lambda x, y: (np.where(np.arange(len(x)) % 2, x, np.nan), y)), "changed",
+        "some steps have no value of x_m"),
+    "kilometres": Deviation(
+        _places(lambda x, y: (x / 1000, y / 1000)), "changed", "in an obstacle): no map"),
     "positions missing": Deviation(
         _places(lambda x, y: (x * np.nan, y * np.nan)), "changed", "unrecorded: "),
     # Files
     "a damaged step table": Deviation(_damaged, "changed", "not a readable Parquet file"),
     "a lap without steps": Deviation(_one_lap_without_steps, "changed", "without steps: 1"),
+    "file names in capitals": Deviation(
+        _files(lambda n: f"steps-{n}.PARQUET"), "changed", "step tables of laps without a row"),
+    "files of another kind": Deviation(
+        _files(lambda n: f"steps-{n}.csv"), "changed", "step tables of laps without a row"),
     "zeros in file names": Deviation(
         _files(lambda n: f"steps-{n:02d}.parquet"), "changed", "step tables of laps without a row"),
 }  # fmt: skip
@@ -558,11 +567,12 @@ def test_a_deviation_alone(recorded, read_study, as_clean, tmp_path, name):
             read_study(folder)
         return
     found = read_study(folder)
-    check_study(folder)
+    faults = check_study(folder)
     new = "; ".join(sorted(found.words - as_clean.words))
     if outcome == "same":
         assert found.differs(as_clean) == []
     else:
         assert found.differs(as_clean)
         assert new
+        assert faults or check_remarks(folder), "check names what the page names"
     assert DEVIATIONS[name].says in new

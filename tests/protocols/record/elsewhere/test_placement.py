@@ -79,6 +79,26 @@ def test_a_few_errors_of_a_sensor_are_no_other_frame(floor, way):
     assert floor.placement(astray, finished=False).on_course
 
 
+def test_a_trembling_sensor_is_no_other_frame(floor, way):
+    """Positions that err by more than the chair moves: the lap ends where it ends, all the same."""
+    fine = np.array(
+        [np.interp(np.linspace(0, len(way) - 1, 1000), range(len(way)), a) for a in way.T]
+    )
+    for seed in range(20):
+        errors = np.random.default_rng(seed).normal(0, 0.03, (1000, 2))
+        placement = floor.placement(fine.T + errors, finished=True)
+        assert placement.on_course
+        assert placement.whole
+
+
+def test_a_place_as_near_as_sensors_go_is_no_other_frame(floor, way):
+    """Wherever the record ends, and the first position 9 cm behind the start: nothing was moved."""
+    onwards = (way[-1] - way[-6]) / np.hypot(*(way[-1] - way[-6]))
+    for end in np.arange(0.3, 0.7, 0.02):
+        short = np.vstack([way[:-10], way[-1] - end * onwards]) - 0.09 * onwards
+        assert floor.placement(short, finished=True).likely == ""
+
+
 def test_unknown_positions_are_nowhere(floor):
     """Nothing recorded: nothing to say."""
     assert floor.placement(np.full((5, 2), np.nan), finished=True).on_course
