@@ -11,24 +11,18 @@ export function hasWebGL() {
 }
 
 const SLOW = 20, COARSEST = 0.3;
-const BEHIND = 0.75, COARSE = 0.5;
 
 // Returns what draws on a canvas; null where there is no WebGL. `tell` is told of pictures drawn.
-// Where fewer than SLOW are drawn a second, such as without a graphics card, they become coarser;
-// somewhat coarser where the worker draws fewer than BEHIND of those it is given: a late picture
-// of a turn is worse than a coarse one.
+// Where fewer than SLOW are drawn a second, such as without a graphics card, they become coarser.
 export function openView(canvas, course, tell) {
   if (!hasWebGL()) return null;
-  let share = 1, since = Infinity, drawn = 0, asked = -Infinity;  // counted from the first picture: loading takes its time
+  let share = 1, since = Infinity, drawn = 0;  // counted from the first picture: loading takes its time
   const counted = (n) => { since = Math.min(since, performance.now()); drawn += n; tell(n); };
   const size = () => {
     const now = performance.now();
     if (now - since > 1000) {
-      if (now - since < 2000) {  // else it was hidden
-        if (drawn < SLOW) share = Math.max(0.7 * share, COARSEST);
-        else if (drawn < BEHIND * asked) share = Math.min(share, Math.max(0.7 * share, COARSE));
-      }
-      since = now; drawn = 0; asked = 0;
+      if (drawn < SLOW && now - since < 2000) share = Math.max(0.7 * share, COARSEST);  // else it was hidden
+      since = now; drawn = 0;
     }
     const scale = share * Math.min(window.devicePixelRatio || 1, 2);
     return [Math.round(canvas.clientWidth * scale), Math.round(canvas.clientHeight * scale)];
@@ -39,7 +33,7 @@ export function openView(canvas, course, tell) {
     const off = canvas.transferControlToOffscreen();
     worker.postMessage({ canvas: off, course }, [off]);
     return {
-      draw(pose, gate) { const [w, h] = size(); asked += 1; worker.postMessage({ pose, gate, w, h }); },
+      draw(pose, gate) { const [w, h] = size(); worker.postMessage({ pose, gate, w, h }); },
       close() { worker.terminate(); },
     };
   }
