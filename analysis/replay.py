@@ -80,22 +80,9 @@ def write_replay(
 
     Examples
     --------
-    >>> import tempfile
-    >>> from harness.running.runner import run_study
-    >>> from harness.session.study_run import StudyRun
-    >>> from protocols.load import resolve_study
-    >>> work = tempfile.TemporaryDirectory()
-    >>> protocol, study = Path(work.name, "brief.yaml"), Path(work.name, "study")
-    >>> _ = protocol.write_text(
-    ...     "{schema: 1, name: brief, title: Two seconds, conditions: {free: {}}, "
-    ...     "laps: [{condition: free, time_limit_s: 2}], cohort: {participants: 1}}"
-    ... )
-    >>> _ = run_study(StudyRun(resolve_study(str(protocol)), seed=0), study, jobs=1)
-    >>> page = Path(work.name, "lap.html")
-    >>> write_replay(study, [("P0001", 0)], page)
-    >>> page.read_text()[:15]
-    '<!DOCTYPE html>'
-    >>> work.cleanup()
+    >>> write_replay(Path("nowhere"), [("P0001", 3)], Path("lap.html"))
+    Traceback (most recent call last):
+    protocols.files.errors.InputError: nowhere: no such folder
     """
     out = Path(out)
     encode = _encoder(out)

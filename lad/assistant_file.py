@@ -18,7 +18,7 @@ FIELDS = frozenset(
 """Every field that a header may have."""
 
 
-class Processes(Protocol):
+class Savable(Protocol):
     """What is saved of an assistant; ``LADAssistant`` says what each attribute is."""
 
     parameters: LADParameters
@@ -36,7 +36,7 @@ class Processes(Protocol):
         """Begin anew with two untaught processes."""
 
 
-def take_apart(assistant: Processes) -> tuple[dict[str, Any], Arrays]:
+def take_apart(assistant: Savable) -> tuple[dict[str, Any], Arrays]:
     """Return the header and the arrays of a saved assistant.
 
     Parameters
@@ -74,7 +74,7 @@ def take_apart(assistant: Processes) -> tuple[dict[str, Any], Arrays]:
     return header, arrays
 
 
-def restore(assistant: Processes, header: dict[str, Any], arrays: Arrays) -> None:
+def restore(assistant: Savable, header: dict[str, Any], arrays: Arrays) -> None:
     """Fill an untaught assistant of the same parameters with what ``take_apart`` returned.
 
     Parameters

@@ -210,12 +210,16 @@ class LADAssistant:
         if helping and command is None:
             raise InvalidTargetError("command: given None while helping; allowed is a Command")
         target = None if command is None or not helping else self._learnt(command)
-        if target is not None:
-            self.how.learn(target)
-        self.when.learn(HELPING if helping else NOT_HELPING)
+        self._learn(target)
         if self.taught is not None:
             self.taught.add(self.when.window, target)
             self.since += 1
+
+    def _learn(self, target: Command | None) -> None:
+        """Teach the processes; None where no help was given."""
+        if target is not None:
+            self.how.learn(target)
+        self.when.learn(NOT_HELPING if target is None else HELPING)
 
     def _learnt(self, command: Command) -> Command:
         """Return what the regressor learns of a demonstrator's command: the command."""

@@ -80,25 +80,10 @@ class LevelAssistant(CorrectionAssistant):
         share = float(self.level.predict().mean[0])
         return super()._answer()._replace(share=min(max(share, 0.0), 1.0))
 
-    def learn(self, helping: bool, command: Command | None) -> None:
-        """Learn the step last seen: when and how as ``LADAssistant.learn``, then the level.
-
-        Parameters
-        ----------
-        helping
-            Whether the demonstrator had taken over.
-        command
-            The demonstrator's command, finite; None when it had not.
-
-        Raises
-        ------
-        InvalidTargetError
-            As ``LADAssistant.learn``; nothing has changed.
-        """
-        v, w = self.how.predict().mean.tolist() if self.how.window.seen else (0.0, 0.0)
-        super().learn(helping, command)
-        given = None if command is None or not helping else self._learnt(command)
-        self.level.learn(0.0 if given is None else share_of(given, Command(v, w)))
+    def _learn(self, target: Command | None) -> None:
+        predicted = Command(*self.how.predict().mean.tolist())  # before it learns the step
+        super()._learn(target)
+        self.level.learn(0.0 if target is None else share_of(target, predicted))
 
 
 def share_of(given: Command, predicted: Command) -> float:

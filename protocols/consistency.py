@@ -10,8 +10,9 @@ from protocols.files.suggestion import allowed
 from protocols.groups import Group
 from protocols.laps import AskedInstrument, PlannedLap
 from protocols.model_choice import BorrowedModel
+from protocols.model_consistency import model_faults, taught_before
 from protocols.orders import Orders, legal_orders, order_faults, put_in_order, untaught
-from protocols.shipped_parts import LAD, LEVEL, LIVE, MODELS, WITH_PARAMETERS
+from protocols.shipped_parts import LAD, LIVE
 
 
 def check_consistency(
@@ -48,18 +49,15 @@ def check_consistency(
     InconsistentError
         With every fault found and its location in the file.
     """
-    taught = _taught_before(model)
+    taught = taught_before(model)
     faults = (
         *_absent_faults(conditions, laps, cohort),
         *_session_survey_faults(survey, cohort),
         *_lap_faults(conditions, laps, taught, orders or Orders()),
-        *_model_faults(conditions, models or {}, ("conditions",)),
-        *_level_faults(conditions, model, ("conditions",)),
-        *_pilot_faults(conditions, laps, models or {}),
+        *model_faults(conditions, laps, groups or {}, models or {}, model),
         *_demonstrator_faults(conditions, demonstrators or {}, ("conditions",)),
         *_further_faults(demonstrators or {}, cohort),
-        *_group_faults(conditions, groups or {}, models or {}, demonstrators or {}, cohort),
-        *_group_level_faults(conditions, groups or {}, model),
+        *_group_faults(conditions, groups or {}, demonstrators or {}, cohort),
         *_untaught_faults(conditions, laps, groups or {}, taught, orders or Orders()),
         *_analysis_faults(conditions, laps, analyses),
         *_between_faults(analyses, groups or {}),
@@ -172,63 +170,9 @@ def _order_faults(
         yield Fault(("orders", "use"), message)
 
 
-def _model_faults(
-    conditions: Mapping[str, Condition], models: Mapping[str, BorrowedModel], at: Location
-) -> Iterator[Fault]:
-    known = ["own", *models]
-    for name, condition in conditions.items():
-        if condition.model not in known:
-            message = f"'{condition.model}' is no model of this protocol; "
-            yield Fault((*at, name, "model"), message + allowed(condition.model, known))
-    if at == ("conditions",) and "own" in models:
-        yield Fault(("models", "own"), "own is the participant's model; allowed: another name")
-
-
-def _taught_before(model: str) -> bool:
-    """Return whether a model may know something before the study; of a foreign one it may."""
-    return model not in WITH_PARAMETERS
-
-
-def _level_faults(conditions: Mapping[str, Condition], model: str, at: Location) -> Iterator[Fault]:
-    """Find conditions that need a level of assistance where the own model learns none."""
-    if model in MODELS and model not in (LEVEL, "taught"):
-        for name, condition in conditions.items():
-            if condition.arbitration == "blend-learnt" and condition.model == "own":
-                message = f"{model} learns no level of assistance; allowed: model: {{use: {LEVEL}}}"
-                yield Fault((*at, name, "arbitration"), message)
-
-
-def _group_level_faults(
-    conditions: Mapping[str, Condition], groups: Mapping[str, Group], model: str
-) -> Iterator[Fault]:
-    for name, group in groups.items():
-        own = model if group.model is None else group.model.use
-        at: Location = ("groups", name, "conditions")
-        yield from _level_faults(group.conditions, own, at)
-        if group.model is not None:
-            kept = {n: c for n, c in conditions.items() if n not in group.conditions}
-            yield from _level_faults(kept, own, ("conditions",))
-
-
-def _pilot_faults(
-    conditions: Mapping[str, Condition],
-    laps: tuple[PlannedLap, ...],
-    models: Mapping[str, BorrowedModel],
-) -> Iterator[Fault]:
-    """Find models that are to be taught by a lap that the protocol does not have."""
-    driven = [conditions[lap.condition] for lap in laps if lap.condition in conditions]
-    for name, model in models.items():
-        if model.source in ("pilot", "previous participant") and not any(
-            condition.training for condition in driven
-        ):
-            message = f"{model.source} needs a lap with training: true to learn from"
-            yield Fault(("models", name, "from"), message)
-
-
 def _group_faults(
     conditions: Mapping[str, Condition],
     groups: Mapping[str, Group],
-    models: Mapping[str, BorrowedModel],
     demonstrators: Mapping[str, DemonstratorChoice],
     cohort: Cohort,
 ) -> Iterator[Fault]:
@@ -239,7 +183,6 @@ def _group_faults(
         for condition in group.conditions:
             if condition not in conditions:
                 yield Fault((*at, condition), _unknown_condition(condition, conditions))
-        yield from _model_faults(group.conditions, models, at)
         yield from _demonstrator_faults(group.conditions, demonstrators, at)
         absent = cohort.demonstrator is None and group.demonstrator is None
         for condition, settings in group.conditions.items():
@@ -260,7 +203,7 @@ def _untaught_faults(
         return
     for name, group in groups.items():
         own = {**conditions, **group.conditions}
-        before = _taught_before(group.model.use) if group.model is not None else taught
+        before = taught_before(group.model.use) if group.model is not None else taught
         for order in legal_orders(orders, laps, conditions, taught=taught):
             missing = untaught(put_in_order(laps, order), own, taught=before)
             if missing is not None:

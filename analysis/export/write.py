@@ -49,21 +49,9 @@ def export_study(
 
     Examples
     --------
-    >>> import tempfile
-    >>> from harness.running.runner import run_study
-    >>> from harness.session.study_run import StudyRun
-    >>> from protocols.load import resolve_study
-    >>> work = tempfile.TemporaryDirectory()
-    >>> protocol, study = Path(work.name, "brief.yaml"), Path(work.name, "study")
-    >>> _ = protocol.write_text(
-    ...     "{schema: 1, name: brief, title: Two seconds, conditions: {free: {}}, "
-    ...     "laps: [{condition: free, time_limit_s: 2}], cohort: {participants: 1}}"
-    ... )
-    >>> _ = run_study(StudyRun(resolve_study(str(protocol)), seed=0), study, jobs=1)
-    >>> export_study(study, "frictionless", Path(work.name, "shared"))
-    >>> sorted(path.name for path in Path(work.name, "shared").iterdir())[-3:]
-    ['participants.csv', 'steps.csv.gz', 'study.yaml']
-    >>> work.cleanup()
+    >>> export_study(Path("nowhere"), "frictionless", Path("shared"))
+    Traceback (most recent call last):
+    protocols.files.errors.InputError: nowhere: no such folder
     """
     check_includes(include)
     write = format_named(format_name)

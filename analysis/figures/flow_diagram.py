@@ -8,10 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from analysis.figures.style import BLACK, WIDTH, new_figure
-from analysis.figures.text import wrapped
-
-_CHARACTERS = 13
-"""Letters of size 9 in an inch."""
+from analysis.figures.text import letters_in, wrapped
 
 
 def flow_figure(flow: pd.DataFrame) -> Figure:
@@ -26,7 +23,7 @@ def flow_figure(flow: pd.DataFrame) -> Figure:
     groups = flow.to_dict("records")
     width = max(WIDTH, 1.7 * len(groups) + 0.4)
     inches = (width - 0.3) / len(groups) - 0.3
-    fits = max(int(_CHARACTERS * inches), 8)
+    fits = max(letters_in(inches), 8)
     rows = [_boxes(group, fits) for group in groups]
     lines = [max(column[i].count("\n") + 1 for column in rows) for i in range(3)]
     heights = [0.17 * n + 0.2 for n in (1, *lines)]

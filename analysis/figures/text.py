@@ -99,5 +99,16 @@ def label_lines(names: Sequence[str], inches: float, size: float = 9.0) -> list[
     size
         Of the letters, points.
     """
-    room = int(72 * inches / (max(len(names), 1) * _LETTER * size))
+    room = letters_in(inches / max(len(names), 1), size)
     return [wrapped(name, max(room, 3), lines=6) for name in names]
+
+
+def letters_in(inches: float, size: float = 9.0) -> int:
+    """Return how many letters of a size in points have room in a line.
+
+    Examples
+    --------
+    >>> letters_in(1.0)
+    12
+    """
+    return int(72 * inches / (_LETTER * size))

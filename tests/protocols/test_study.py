@@ -149,6 +149,10 @@ def test_a_learnt_level_needs_a_model_that_learns_one():
         assert _study(*laps, conditions=shared, model={"use": use}).model.use == use
     with pytest.raises(ValidationError, match="lad-correction learns no level of assistance"):
         _study(*laps, conditions=shared, model={"use": "lad-correction"})
+    borrowed = shared | {"shared": shared["shared"] | {"model": "pilot"}}
+    models = {"pilot": {"from": "pilot"}}
+    with pytest.raises(ValidationError, match="lad learns no level of assistance"):
+        _study(*laps, conditions=borrowed, models=models)
     groups = {"a": {}, "b": {"model": {"use": "lad"}}}
     with pytest.raises(ValidationError, match="lad learns no level of assistance"):
         _study(*laps, conditions=shared, model={"use": "lad-level"}, groups=groups)
