@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from lad.assistant import Assistant
+from lad.errors import HyperparameterError
 from lad.lad_assistant import LADAssistant
 from participants.part_loader import load_factory, refuse_missing_methods
 from protocols.code_beside import PartBeside
@@ -34,10 +35,13 @@ def make_model(
     Raises
     ------
     InputError
-        When it cannot be imported, does not take the options, or is no assistant.
+        When it cannot be imported, does not take its parameters or options, or is no assistant.
     """
     if choice.use in WITH_PARAMETERS:
-        shipped: Assistant = load_factory("model", choice.use)(choice.parameters)
+        try:
+            shipped: Assistant = load_factory("model", choice.use)(choice.parameters)
+        except HyperparameterError as error:
+            raise InputError(str(error)) from None
         return shipped
     factory = load_factory("model", choice.use, code)
     try:

@@ -5,6 +5,7 @@ import pytest
 
 from harness.session.model import basis_vectors, make_model, saved
 from lad.command import Command
+from lad.hyperparameters import LADParameters
 from lad.lad_assistant import LADAssistant
 from protocols.files.errors import InputError
 from protocols.model_choice import ModelChoice
@@ -45,6 +46,13 @@ def test_a_model_that_cannot_be_made_is_said_in_one_line(use, options, part):
         make_model(ModelChoice(use=use, options=options))
     assert part in str(fault.value)
     assert "\n" not in str(fault.value)
+
+
+def test_parameters_that_a_shipped_model_does_not_take_are_said_in_one_line():
+    """Here and not in the first session; the line names the model and what is allowed."""
+    choice = ModelChoice(use="lad-level", parameters=LADParameters(memory_laps=2))
+    with pytest.raises(InputError, match="^lad-level: memory_laps: .*; allowed: null$"):
+        make_model(choice)
 
 
 def test_a_study_can_start_with_models_that_were_taught(tmp_path):
