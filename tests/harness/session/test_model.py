@@ -51,7 +51,7 @@ def test_a_model_that_cannot_be_made_is_said_in_one_line(use, options, part):
 def test_parameters_that_a_shipped_model_does_not_take_are_said_in_one_line():
     """Here and not in the first session; the line names the model and what is allowed."""
     choice = ModelChoice(use="lad-level", parameters=LADParameters(memory_laps=2))
-    with pytest.raises(InputError, match="^lad-level: memory_laps: .*; allowed: null$"):
+    with pytest.raises(InputError, match=r"^lad-level: memory_laps: .*; allowed: null$"):
         make_model(choice)
 
 
