@@ -26,7 +26,7 @@ from protocols.files.errors import InputError
 FRAMES_PER_FILE = 200_000
 """About 50 MB; the format's own writer begins a new file at 100 MB."""
 
-FRAMES_PER_PART = 20_000
+FRAMES_PER_PART = 10_000
 EPISODES_PER_PART = 100
 """How many rows are in memory before they are written: a file's writer keeps something of every
 part until the file ends, so that small parts fill the memory."""
